@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: BSD-3-Clause
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cambium)
+install(TARGETS cambium EXPORT cambiumTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS cambium_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY include/cambium DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT cambiumTargets NAMESPACE cambium:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/cambiumConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/cambiumConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfigVersion.cmake
+              cmake/cambium_add_plugin.cmake cmake/plugin.map DESTINATION ${package_dir})

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that are whole or absent, and trajectories.
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cambium/mission.hpp"
+
+namespace cambium {
+
+std::string read_file(const std::filesystem::path& path);  ///< throws Error(data)
+
+/// Writes to a temporary file beside `path`; commit() makes it appear under its name. A writer that
+/// is destroyed without commit() removes what it wrote.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  std::ostream& stream() { return out_; }
+  /// For writers that open files by name themselves: write here, then commit().
+  const std::filesystem::path& temporary() const { return temporary_; }
+  void commit();  ///< throws Error(data) when anything could not be written (a full disk)
+
+ private:
+  std::filesystem::path path_, temporary_;
+  std::ofstream out_;
+  bool committed_ = false;
+};
+
+void write_file(const std::filesystem::path& path, std::string_view text);  ///< atomically
+
+/// One row of a TUM trajectory: stamp x y z qx qy qz qw.
+struct StampedPose {
+  Stamp stamp;
+  SE3 T_map_node;
+};
+std::vector<StampedPose> read_tum(const std::filesystem::path& path);  ///< throws Error(file:line)
+std::string format_tum(const std::vector<StampedPose>& poses);
+
+}  // namespace cambium

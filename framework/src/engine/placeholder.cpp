@@ -1,0 +1,1 @@
+#include "cambium/kinds.hpp"

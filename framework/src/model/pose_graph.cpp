@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cambium/pose_graph.hpp"
+
+#include <numeric>
+
+namespace cambium {
+
+Vec6 residual(const SE3& T_tail_head, const SE3& T_map_tail, const SE3& T_map_head) {
+  const SE3 T = T_map_tail.inverse() * T_map_head;
+  const Quat dq = T_tail_head.q.conjugate() * T.q;
+  Vec6 r;
+  r << T.t - T_tail_head.t, (dq.w() < 0 ? -2.0 : 2.0) * dq.vec();
+  return r;
+}
+
+double cost(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
+            const std::vector<double>& weight) {
+  double F = 0;
+  for (std::size_t k = 0; k < graph.relative.size(); ++k) {
+    const auto& f = graph.relative[k];
+    const Vec6 r = residual(f.T_tail_head, T_map_node[f.tail], T_map_node[f.head]);
+    F += (weight.empty() ? 1.0 : weight[k]) * r.dot(f.information * r);
+  }
+  for (const auto& f : graph.attitude) {
+    const Vec3 up = T_map_node[f.node].q.conjugate() * Vec3::UnitZ();
+    const Vec3 r = up - f.up_node * f.up_node.dot(up);
+    F += r.squaredNorm() / (f.sigma * f.sigma);
+  }
+  for (const auto& f : graph.priors) {
+    const Vec6 r = residual(f.T_map_node, SE3{}, T_map_node[f.node]);
+    F += r.dot(f.information * r);
+  }
+  for (const auto& f : graph.positions) {
+    const Vec3 r = T_map_node[f.node].t - f.t_map;
+    F += r.dot(f.information * r);
+  }
+  return F;
+}
+
+std::vector<std::size_t> components(const PoseGraph& graph) {
+  std::vector<std::size_t> parent(graph.T_map_node.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const auto& f : graph.relative) {
+    const std::size_t a = root(f.tail), b = root(f.head);
+    if (a != b) parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<std::size_t> number(parent.size()), out(parent.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < parent.size(); ++i) {
+    if (root(i) == i) number[i] = next++;
+    out[i] = number[root(i)];
+  }
+  return out;
+}
+
+}  // namespace cambium
