@@ -41,6 +41,8 @@ struct StampedPose {
   Stamp stamp;
   SE3 T_map_node;
 };
+/// Stamps are read exactly, up to nanoseconds. `where` names the text in messages.
+std::vector<StampedPose> parse_tum(std::string_view text, const std::filesystem::path& where);
 std::vector<StampedPose> read_tum(const std::filesystem::path& path);  ///< throws Error(file:line)
 std::string format_tum(const std::vector<StampedPose>& poses);
 
