@@ -47,8 +47,8 @@ std::string read_file(const std::filesystem::path& path) {
   return text;
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(temporary_name(path_)) {
+AtomicFile::AtomicFile(std::filesystem::path path, Durability durability)
+    : path_(std::move(path)), temporary_(temporary_name(path_)), durability_(durability) {
   out_.open(temporary_, std::ios::binary);
   if (!out_) throw Error(ErrorCode::data, path_.string(), "cannot be written: " + system_message());
 }
@@ -63,7 +63,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::commit() {
   out_.close();
   if (!out_) throw Error(ErrorCode::data, path_.string(), "cannot be written: " + system_message());
-  sync_to_disk(temporary_);
+  if (durability_ == Durability::synced) sync_to_disk(temporary_);
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) throw Error(ErrorCode::data, path_.string(), "cannot be written: " + error.message());
