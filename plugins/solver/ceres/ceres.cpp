@@ -73,6 +73,7 @@ class Ceres final : public Solver {
     options.function_tolerance = tolerance_;
     options.gradient_tolerance = 1e-14;
     options.parameter_tolerance = 1e-14;
+    options.initial_trust_region_radius = 1e8;
     // With threads Ceres adds costs and gradients in the order in which they finish, so the last
     // bits would change from run to run.
     options.num_threads = 1;
@@ -80,6 +81,7 @@ class Ceres final : public Solver {
     options.callbacks.push_back(&callback);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &pose_problem.problem(), &summary);
+    context.debug(summary.FullReport());
     context.check_cancelled();
 
     Solution solution;
