@@ -6,10 +6,12 @@
 namespace cambium {
 
 Vec6 residual(const SE3& T_tail_head, const SE3& T_map_tail, const SE3& T_map_head) {
-  const SE3 T = T_map_tail.inverse() * T_map_head;
-  const Quat dq = T_tail_head.q.conjugate() * T.q;
+  const Quat inv = T_map_tail.q.conjugate();
+  // The difference is taken before the rotation: in a map of UTM size the other order loses digits.
+  const Vec3 t = inv * Vec3(T_map_head.t - T_map_tail.t);
+  const Quat dq = T_tail_head.q.conjugate() * inv * T_map_head.q;
   Vec6 r;
-  r << T.t - T_tail_head.t, (dq.w() < 0 ? -2.0 : 2.0) * dq.vec();
+  r << t - T_tail_head.t, (dq.w() < 0 ? -2.0 : 2.0) * dq.vec();
   return r;
 }
 
