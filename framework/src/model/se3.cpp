@@ -49,9 +49,9 @@ Mat3 left_jacobian_inverse(const Vec3& w) {
   const double theta2 = w.squaredNorm();
   const double theta = std::sqrt(theta2);
   const Mat3 W = skew(w);
-  const double k = theta < 1e-3 ? 1.0 / 12.0 + theta2 / 720.0
-                                : 1.0 / theta2 - std::cos(0.5 * theta) /
-                                                     (2.0 * theta * std::sin(0.5 * theta));
+  const double k =
+      theta < 1e-3 ? 1.0 / 12.0 + theta2 / 720.0
+                   : 1.0 / theta2 - std::cos(0.5 * theta) / (2.0 * theta * std::sin(0.5 * theta));
   return Mat3::Identity() - 0.5 * W + k * W * W;
 }
 
