@@ -3,7 +3,6 @@
 #
 # One shared library that exports one symbol, `cambium_plugin`. The library is named NAME.so. TEST is
 # a GoogleTest file, built where the test support of Cambium is at hand.
-set(_cambium_cmake_dir ${CMAKE_CURRENT_LIST_DIR})
 
 function(cambium_add_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK;TEST")
@@ -15,8 +14,8 @@ function(cambium_add_plugin name)
   target_link_libraries(${name} PRIVATE cambium::cambium ${arg_LINK})
   set_target_properties(${name} PROPERTIES
     PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-    LINK_DEPENDS ${_cambium_cmake_dir}/plugin.map)
-  target_link_options(${name} PRIVATE -Wl,--version-script=${_cambium_cmake_dir}/plugin.map)
+    LINK_DEPENDS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin.map)
+  target_link_options(${name} PRIVATE -Wl,--version-script=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin.map)
   if(NOT CAMBIUM_SANITIZE)  # sanitizers leave their symbols to the executable
     target_link_options(${name} PRIVATE -Wl,-z,defs)
   endif()

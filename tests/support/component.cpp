@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <yaml-cpp/yaml.h>
-
 #include "pipeline/binder.hpp"
 #include "plugins/loader.hpp"
 #include "support/support.hpp"
@@ -26,7 +24,9 @@ const Registered& registered(Kind kind, const std::string& name) {
 
 std::shared_ptr<Component> component(Kind kind, const std::string& name, const std::string& yaml) {
   std::shared_ptr<Component> out = registered(kind, name).create();
-  bind_params(*out, YAML::Load(yaml), name);
+  Diagnostics diagnostics;
+  bind_params(*out, parse_yaml(yaml, name, diagnostics), diagnostics);
+  diagnostics.throw_if_any();
   return out;
 }
 

@@ -17,7 +17,8 @@ std::string difference(const std::string& part, const std::string& before,
   for (const auto& [name, value] : b.items()) {
     const Json old = a.contains(name) ? a[name] : Json(nullptr);
     if (old != value)
-      text += fmt::format("{}{}: {} -> {}", text.empty() ? "" : ", ", name, old.dump(), value.dump());
+      text +=
+          fmt::format("{}{}: {} -> {}", text.empty() ? "" : ", ", name, old.dump(), value.dump());
   }
   return text.empty() ? part : text;
 }
@@ -31,7 +32,8 @@ Explainer::Explainer(const std::filesystem::path& previous) {
 
 std::string Explainer::explain(std::size_t index, const StepRecord& step) const {
   const std::string title = fmt::format("  why: {} {}: ", step.verb, step.plugin);
-  if (step.items > 0 && step.cached == step.items) return title + "nothing changed, taken from the cache";
+  if (step.items > 0 && step.cached == step.items)
+    return title + "nothing changed, taken from the cache";
   if (!previous_.is_object() || !previous_.contains("steps"))
     return title + "no earlier run in this folder";
   const Json& steps = previous_["steps"];

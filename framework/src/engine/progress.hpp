@@ -20,7 +20,7 @@ class Progress {
   void begin(const std::string& step, std::size_t total);  ///< of work items
   void advance();                                          ///< one item more; thread-safe
   void end(const std::string& summary);
-  std::vector<std::string> warnings() const;               ///< all so far, for the report
+  std::vector<std::string> warnings() const;  ///< all so far, for the report
 
  private:
   void draw();

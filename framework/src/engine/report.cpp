@@ -10,9 +10,12 @@ namespace {
 
 const char* to_string(Better better) {
   switch (better) {
-    case Better::lower: return "lower";
-    case Better::higher: return "higher";
-    case Better::neither: break;
+    case Better::lower:
+      return "lower";
+    case Better::higher:
+      return "higher";
+    case Better::neither:
+      break;
   }
   return "neither";
 }
@@ -66,12 +69,17 @@ Json step_json(const StepRecord& s) {
   for (const auto& [part, value] : s.key) key[part] = value;
   Json files = Json::array();
   for (const auto& f : s.files) files.push_back(f.string());
-  return {{"verb", s.verb},         {"plugin", s.plugin},
-          {"label", s.label},       {"seconds", s.seconds},
-          {"items", s.items},       {"cached_items", s.cached},
+  return {{"verb", s.verb},
+          {"plugin", s.plugin},
+          {"label", s.label},
+          {"seconds", s.seconds},
+          {"items", s.items},
+          {"cached_items", s.cached},
           {"cached", s.items > 0 && s.items == s.cached},
-          {"summary", s.summary},   {"figures", scores_json(s.figures)},
-          {"files", files},         {"key", key}};
+          {"summary", s.summary},
+          {"figures", scores_json(s.figures)},
+          {"files", files},
+          {"key", key}};
 }
 
 Json loop_json(const Atlas& atlas, const Loop& l) {
@@ -80,9 +88,14 @@ Json loop_json(const Atlas& atlas, const Loop& l) {
             {"id", atlas.node(n).id},
             {"fused_id", atlas.node(n).id + atlas.missions[n.mission].id_offset}};
   };
-  Json out{{"tail", node(l.tail)}, {"head", node(l.head)}, {"state", to_string(l.state)},
-           {"proposed_by", l.proposed_by}, {"registered_by", l.registered_by},
-           {"decided_by", l.decided_by}, {"reason", l.reason}, {"scores", scores_json(l.scores)}};
+  Json out{{"tail", node(l.tail)},
+           {"head", node(l.head)},
+           {"state", to_string(l.state)},
+           {"proposed_by", l.proposed_by},
+           {"registered_by", l.registered_by},
+           {"decided_by", l.decided_by},
+           {"reason", l.reason},
+           {"scores", scores_json(l.scores)}};
   if (l.state != LoopState::accepted) return out;
   const auto& T = l.T_tail_head;
   out["T_tail_head"] = {T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w()};

@@ -28,20 +28,16 @@ void open_run_folder(const fs::path& out) {
                 "holds something that is not a run of Cambium; choose an empty or new folder");
   std::error_code error;
   fs::create_directories(out, error);
-  if (error)
-    throw Error(ErrorCode::data, out.string(), "cannot be made: " + error.message());
+  if (error) throw Error(ErrorCode::data, out.string(), "cannot be made: " + error.message());
 }
 
 std::vector<std::pair<std::string, std::string>> key_parts(const Step& step, const Known& known,
                                                            const Engine& engine,
                                                            std::uint64_t seed) {
   StepKeys keys = step.keys;
-  return {{"program", engine.build().hex()},
-          {"plugin", step.registered->build.hex()},
-          {"params", step.configured.params},
-          {"step", canonical_params(keys)},
-          {"input", atlas_key(known.atlas).hex()},
-          {"seed", std::to_string(seed)}};
+  return {{"program", engine.build().hex()},       {"plugin", step.registered->build.hex()},
+          {"params", step.configured.params},      {"step", canonical_params(keys)},
+          {"input", atlas_key(known.atlas).hex()}, {"seed", std::to_string(seed)}};
 }
 
 StepRecord run_step(const Step& step, Known& known, const Engine& engine, std::uint64_t seed,
@@ -56,8 +52,7 @@ StepRecord run_step(const Step& step, Known& known, const Engine& engine, std::u
   const auto begin = std::chrono::steady_clock::now();
   engine.progress().begin(step.title(), 1);
   known = step_function(step.verb->kind)(std::move(known), {step, engine, seed, out, record});
-  record.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (record.items > 0 && record.cached == record.items) record.summary += " (cached)";
   engine.progress().end(record.summary);
   return record;
@@ -65,8 +60,8 @@ StepRecord run_step(const Step& step, Known& known, const Engine& engine, std::u
 
 void warn_of_islands(const Atlas& atlas, Progress& progress) {
   if (atlas.islands.size() < 2) return;
-  std::string text = fmt::format("{} islands: no accepted loop ties them together:",
-                                 atlas.islands.size());
+  std::string text =
+      fmt::format("{} islands: no accepted loop ties them together:", atlas.islands.size());
   for (const auto& island : atlas.islands) {
     text += " {";
     for (std::size_t i = 0; i < island.missions.size(); ++i)
@@ -113,8 +108,8 @@ RunResult run_pipeline(const RunOptions& options, const ResolvedPipeline& pipeli
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& e) {
-      throw Error(e.code(), e.where(), fmt::format("{} (in step '{}', {})", e.message(),
-                                                   step.title(), step.where));
+      throw Error(e.code(), e.where(),
+                  fmt::format("{} (in step '{}', {})", e.message(), step.title(), step.where));
     }
     if (options.explain)
       progress.log(LogLevel::info, explainer.explain(result.steps.size() - 1, result.steps.back()));

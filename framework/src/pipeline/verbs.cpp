@@ -25,7 +25,11 @@ const std::vector<Verb>& verbs() {
        {"attitude_sigma"},
        "Brings the missions together and relaxes all constraints"},
       {"georeference", Kind::gnss_aligner, false, {}, "Ties each island to the globe"},
-      {"export", Kind::map_exporter, false, {"payload", "label"}, "Writes the map into the run folder"},
+      {"export",
+       Kind::map_exporter,
+       false,
+       {"payload", "label"},
+       "Writes the map into the run folder"},
       {"evaluate",
        Kind::evaluator,
        false,
@@ -61,7 +65,8 @@ void StepKeys::params(ParamVisitor& v) {
       at_least(0, "m"));
   if (has("payload")) v("payload", payload, "The stream of payloads that the step reads");
   if (has("as")) v("as", as, "The stream that the filter writes; others keep reading theirs");
-  if (has("label")) v("label", label, "Folder of an export (default: the plugin), prefix of metric names");
+  if (has("label"))
+    v("label", label, "Folder of an export (default: the plugin), prefix of metric names");
   if (has("reference"))
     v("reference", reference,
       "Folder with MISSION.tum for each mission; without it each mission brings its own truth");

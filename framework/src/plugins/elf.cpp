@@ -27,6 +27,7 @@ class ElfFile {
       fail("is an ELF file, but not a shared library for this machine");
     if (header_.e_shnum > 0 && header_.e_shentsize != sizeof(Section))
       fail("has a section table that cannot be read");
+    check_whole();
   }
 
   std::optional<Symbol> find(std::string_view name) const {
@@ -62,6 +63,16 @@ class ElfFile {
   }
 
  private:
+  // dlopen() maps segments without looking at the length of the file: touching a page behind its
+  // end would kill the process.
+  void check_whole() const {
+    bytes(header_.e_shoff, header_.e_shnum * sizeof(Section));
+    for (std::size_t i = 0; i < header_.e_phnum; ++i) {
+      const auto segment = read<Segment>(header_.e_phoff + i * sizeof(Segment));
+      if (segment.p_type == PT_LOAD) bytes(segment.p_offset, segment.p_filesz);
+    }
+  }
+
   std::string_view bytes(std::size_t offset, std::size_t size) const {
     if (offset > file_.size() || size > file_.size() - offset)
       fail("is cut short: it has " + std::to_string(file_.size()) +

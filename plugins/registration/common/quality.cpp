@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/quality.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace cambium::registration {
+namespace {
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace
+
+Quality evaluate(const Surface& target, const Surface& source, const SE3& T_target_source,
+                 double distance) {
+  Quality quality;
+  const Eigen::Matrix3d R = T_target_source.rotation();
+  const Eigen::Vector3d t = T_target_source.t;
+  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
+  double sum = 0;
+  pcl::Indices near(1);
+  std::vector<float> squared(1);
+  for (const Point& point : *source.points) {
+    const Eigen::Vector3d p_source = point.getVector3fMap().cast<double>();
+    const Eigen::Vector3d p = R * p_source + t;
+    Point query;
+    query.getVector3fMap() = p.cast<float>();
+    if (target.tree->nearestKSearch(query, 1, near, squared) == 0) continue;
+    if (!(squared[0] < distance * distance)) continue;
+    const Point& q = (*target.points)[std::size_t(near[0])];
+    const Eigen::Vector3d n = q.getNormalVector3fMap().cast<double>();
+    const double e = n.dot(p - q.getVector3fMap().cast<double>());
+    Eigen::Matrix<double, 6, 1> J;
+    J << n, -(n.transpose() * R * cross_matrix(p_source)).transpose();
+    H.selfadjointView<Eigen::Lower>().rankUpdate(J);
+    sum += e * e;
+    ++quality.inliers;
+  }
+  quality.normal_equations = H.selfadjointView<Eigen::Lower>();
+  if (source.size() == 0 || quality.inliers == 0) return quality;
+  quality.overlap = double(quality.inliers) / double(source.size());
+  quality.rmse = std::sqrt(sum / double(quality.inliers));
+  return quality;
+}
+
+Mat6 information(const Quality& quality, const NoiseModel& noise) {
+  // Points lie on surfaces: a patch of correlation_length squared holds (length / spacing)^2.
+  const double patch = noise.correlation_length / noise.spacing;
+  const double independent_share = 1.0 / std::max(1.0, patch * patch);
+  const double variance = std::max(quality.rmse * quality.rmse, 1e-6);
+  Eigen::Matrix<double, 6, 1> floor;
+  floor << Eigen::Vector3d::Constant(noise.translation_floor),
+      Eigen::Vector3d::Constant(noise.rotation_floor);
+  // (A^-1 + S)^-1 with S = floor^2, without inverting A, which may be singular: in units of the
+  // floor it is B (B + I)^-1, and the eigenvalues of B show which directions are held.
+  const Eigen::Matrix<double, 6, 6> B = floor.asDiagonal() *
+                                        (quality.normal_equations * (independent_share / variance)) *
+                                        floor.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(B);
+  const Eigen::Matrix<double, 6, 1> held = eigen.eigenvalues().unaryExpr(
+      [](double b) { return std::max(b / (1 + b), 1e-6); });
+  const Eigen::Matrix<double, 6, 6> scaled =
+      eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::Matrix<double, 6, 1> inverse = floor.cwiseInverse();
+  const Eigen::Matrix<double, 6, 6> result = inverse.asDiagonal() * scaled * inverse.asDiagonal();
+  return 0.5 * (result + result.transpose());
+}
+
+}  // namespace cambium::registration
