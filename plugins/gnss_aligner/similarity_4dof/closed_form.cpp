@@ -3,19 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cambium/fit.hpp"
+#include "cambium/statistics.hpp"
 
 namespace similarity_4dof {
 namespace {
 
 using cambium::Vec3;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
 
 double horizontal_variance(const Pair& pair) {
   return (pair.covariance(0, 0) + pair.covariance(1, 1)) / 2;
@@ -87,7 +83,7 @@ Fit fit(const std::vector<Pair>& pairs) {
   out.T_map_enu = cambium::fit_yaw(w.p_map, w.p_enu, w.weight);
   std::vector<double> dz;
   for (const Pair& pair : pairs) dz.push_back(pair.p_map.z() - pair.p_enu.z());
-  out.T_map_enu.t.z() = median(dz);
+  out.T_map_enu.t.z() = cambium::median(dz);
   measure_residuals(pairs, out);
   propagate(pairs, w, out);
   return out;
