@@ -53,6 +53,8 @@ class Ceres final : public Solver {
     context.check_cancelled();
     Solution solution = minimise(graph, start, held, loss, context);
     keep_the_better(graph, component, loss, solution);
+    for (std::size_t i = 0; i < held.size(); ++i)  // to the last bit
+      if (held[i]) solution.T_map_node[i] = given.T_map_node[i];
     for (const auto& f : graph.relative) {
       const Vec6 r =
           residual(f.T_tail_head, solution.T_map_node[f.tail], solution.T_map_node[f.head]);
@@ -73,6 +75,7 @@ class Ceres final : public Solver {
     options.function_tolerance = tolerance_;
     options.gradient_tolerance = 1e-14;
     options.parameter_tolerance = 1e-14;
+    // The chordal start is good: begin with Gauss-Newton steps, which a failed one shortens.
     options.initial_trust_region_radius = 1e8;
     // With threads Ceres adds costs and gradients in the order in which they finish, so the last
     // bits would change from run to run.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cambium/error.hpp"
 #include "information.hpp"
@@ -41,52 +42,66 @@ std::string name(const std::string& label, const char* kind, std::size_t k) {
   return label.empty() ? fmt::format("{} {}", kind, k) : label;
 }
 
-void check_poses(const PoseGraph& graph) {
+/// Files give quaternions to six digits; the factors expect norm 1.
+void normalize(SE3& T, const std::string& label, const std::string& what) {
+  require(T.finite() && T.q.norm() > 1e-6, label, what + " is not finite or has no rotation");
+  T.q.normalize();
+}
+
+void check_poses(PoseGraph& graph) {
   require(graph.fixed.size() == graph.T_map_node.size(), "",
           fmt::format("the graph has {} poses but {} fixed flags", graph.T_map_node.size(),
                       graph.fixed.size()));
   for (std::size_t i = 0; i < graph.T_map_node.size(); ++i)
-    require(graph.T_map_node[i].finite(),
-            fmt::format("node {}", i < graph.ids.size() ? graph.ids[i] : NodeId(i)),
-            "the initial pose is not finite");
+    normalize(graph.T_map_node[i],
+              fmt::format("node {}", i < graph.ids.size() ? graph.ids[i] : NodeId(i)),
+              "the initial pose");
+}
+
+void check_attitude(const PoseGraph& graph) {
+  for (std::size_t k = 0; k < graph.attitude.size(); ++k) {
+    const auto& f = graph.attitude[k];
+    const bool ok = f.node < graph.T_map_node.size() && f.up_node.allFinite() &&
+                    std::isfinite(f.sigma) && f.sigma > 0;
+    require(ok, name("", "attitude factor", k),
+            fmt::format("expected a node of the graph, a finite direction and sigma > 0, found "
+                        "node {}, sigma {}",
+                        f.node, f.sigma));
+  }
 }
 
 }  // namespace
 
 PoseGraph checked(const PoseGraph& graph, const Context& context) {
-  check_poses(graph);
   PoseGraph out = graph;
+  check_poses(out);
   const std::size_t n = graph.T_map_node.size();
-  const char* outside = "the factor names a node that the graph does not have";
+  const auto require_node = [n](std::size_t node, const std::string& label) {
+    require(node < n, label, "the factor names a node that the graph does not have");
+  };
   Repairs repairs;
   for (std::size_t k = 0; k < out.relative.size(); ++k) {
     auto& f = out.relative[k];
     f.label = name(f.label, "relative factor", k);
-    require(f.tail < n && f.head < n, f.label, outside);
-    require(f.T_tail_head.finite(), f.label, "the transform is not finite");
+    require_node(std::max(f.tail, f.head), f.label);
+    normalize(f.T_tail_head, f.label, "the transform");
     repairs.repair(f.information, f.label);
   }
   for (std::size_t k = 0; k < out.priors.size(); ++k) {
     auto& f = out.priors[k];
     f.label = name(f.label, "prior", k);
-    require(f.node < n, f.label, outside);
-    require(f.T_map_node.finite(), f.label, "the pose is not finite");
+    require_node(f.node, f.label);
+    normalize(f.T_map_node, f.label, "the pose");
     repairs.repair(f.information, f.label);
   }
   for (std::size_t k = 0; k < out.positions.size(); ++k) {
     auto& f = out.positions[k];
     f.label = name(f.label, "position factor", k);
-    require(f.node < n, f.label, outside);
+    require_node(f.node, f.label);
     require(f.t_map.allFinite(), f.label, "the position is not finite");
     repairs.repair(f.information, f.label);
   }
-  for (std::size_t k = 0; k < out.attitude.size(); ++k) {
-    const auto& f = out.attitude[k];
-    require(f.node < n, name("", "attitude factor", k), outside);
-    require(f.up_node.allFinite() && std::isfinite(f.sigma) && f.sigma > 0,
-            name("", "attitude factor", k),
-            fmt::format("expected a finite direction and sigma > 0, found sigma {}", f.sigma));
-  }
+  check_attitude(out);
   repairs.report(context);
   return out;
 }
