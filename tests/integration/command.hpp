@@ -14,7 +14,8 @@ struct Outcome {
   std::string out, err;
 };
 
-/// `cambium ARGUMENTS...` with the plugins of this build and no cache unless the arguments name one.
+/// `cambium ARGUMENTS...` with the plugins of this build and no cache unless the arguments name
+/// one.
 Outcome cambium(const std::vector<std::string>& arguments);
 
 /// The same, interrupted (SIGINT) after `seconds`.

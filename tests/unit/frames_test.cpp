@@ -54,7 +54,8 @@ TEST(JoinIslands, PlacesAMissionByWhatMostLoopsSay) {
     ASSERT_EQ(joined.islands.size(), 1u);
     for (std::uint32_t i = 0; i < 20; ++i)
       EXPECT_LT((joined.T_map_node({0, i}).t - joined.T_map_node({1, i}).t).norm(), 1e-9);
-    EXPECT_EQ(joined.T_map_node({0, 3}).t, two_missions(0).T_map_node({0, 3}).t);  // a gives the frame
+    EXPECT_EQ(joined.T_map_node({0, 3}).t,
+              two_missions(0).T_map_node({0, 3}).t);  // a gives the frame
   }
 }
 

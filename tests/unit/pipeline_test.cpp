@@ -74,7 +74,8 @@ steps:
   - [1]
 )");
   EXPECT_CONTAINS(text, "p.yaml:1:10: 'version' must be 1, found '2'");
-  EXPECT_CONTAINS(text, "p.yaml:2:1: unknown key 'missons' in the pipeline; did you mean 'missions'?");
+  EXPECT_CONTAINS(text,
+                  "p.yaml:2:1: unknown key 'missons' in the pipeline; did you mean 'missions'?");
   EXPECT_CONTAINS(text, "p.yaml:4:5: a step must open with a verb");
   EXPECT_CONTAINS(text, "did you mean 'optimize'?");
   EXPECT_CONTAINS(text, "p.yaml:6:5: unknown parameter 'pair'; did you mean 'pairs'?");
@@ -100,8 +101,10 @@ TEST_F(PipelineFile, WiringIsCheckedBeforeAnythingRuns) {
   EXPECT_CONTAINS(mistakes(head + "  - recognize: sc\n    payload: coarse\n"),
                   "no earlier filter writes the payload stream 'coarse'");
   EXPECT_CONTAINS(mistakes(head + "  - export: cloud\n  - export: cloud\n"), "give one of them");
-  EXPECT_EQ(mistakes(head + "  - filter: v\n    as: coarse\n  - recognize: sc\n    payload: coarse\n"
-                            "  - register: g\n  - verify: p\n  - optimize: c\n"), "");
+  EXPECT_EQ(
+      mistakes(head + "  - filter: v\n    as: coarse\n  - recognize: sc\n    payload: coarse\n"
+                      "  - register: g\n  - verify: p\n  - optimize: c\n"),
+      "");
 }
 
 TEST_F(PipelineFile, OverridesReachTheNamedSteps) {
@@ -119,8 +122,9 @@ TEST_F(PipelineFile, OverridesReachTheNamedSteps) {
 }
 
 TEST_F(PipelineFile, ExtendsReplacesListsAndMergesTheRest) {
-  write_file(folder / "base.yaml", "version: 1\nseed: 3\nmissions: [m]\nsteps: [{optimize: a}]\n"
-                                   "set: {optimize.x: 1, optimize.y: 2}\n");
+  write_file(folder / "base.yaml",
+             "version: 1\nseed: 3\nmissions: [m]\nsteps: [{optimize: a}]\n"
+             "set: {optimize.x: 1, optimize.y: 2}\n");
   const Pipeline p = load("version: 1\nextends: base.yaml\nset: {optimize.x: 5}\n");
   EXPECT_EQ(p.seed, 3u);
   ASSERT_EQ(p.steps.size(), 1u);

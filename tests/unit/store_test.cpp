@@ -43,7 +43,8 @@ TEST(Cache, DamagedEntriesAreAbsent) {
   const testing::TemporaryFolder folder;
   const Cache cache(folder.path());
   const std::string content(1000, 'x');
-  for (const std::size_t keep : {std::size_t{0}, std::size_t{7}, std::size_t{23}, std::size_t{500}}) {
+  for (const std::size_t keep :
+       {std::size_t{0}, std::size_t{7}, std::size_t{23}, std::size_t{500}}) {
     cache.put(key(1), content);
     fs::resize_file(only_file(folder.path()), keep);
     EXPECT_FALSE(cache.get(key(1))) << keep;
