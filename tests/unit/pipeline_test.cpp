@@ -11,7 +11,7 @@ namespace {
 
 class PipelineFile : public ::testing::Test {
  protected:
-  testing::TemporaryFolder folder;
+  cambium::testing::TemporaryFolder folder;
 
   Pipeline load(const std::string& text, const std::vector<std::string>& set = {}) {
     write_file(folder / "p.yaml", text);
