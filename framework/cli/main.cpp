@@ -1,2 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include "engine/program.hpp"
+#include "host.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("Fuses lidar SLAM missions from many robots into one map.");
+  app.set_version_flag("--version", "cambium " + cambium::program_version());
+  app.require_subcommand(1);
+  app.footer(
+      "Example: cambium run pipelines/fuse_scans.yaml mission_a mission_b --out fused\n"
+      "'cambium COMMAND --help' explains a command.");
+  using namespace cambium::cli;
+  add_run(app);
+  add_validate(app);
+  add_inspect(app);
+  add_plugins(app);
+  add_schema(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e);
+    return code == 0 ? 0 : int(cambium::ErrorCode::config);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const cambium::Error& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
+    return int(e.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory; try a smaller --memory or fewer --threads\n");
+    return int(cambium::ErrorCode::data);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
+    return int(cambium::ErrorCode::plugin);
+  }
+}

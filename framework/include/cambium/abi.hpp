@@ -12,6 +12,9 @@ namespace cambium {
 
 inline constexpr std::uint32_t api_major = 0;  ///< another major version is refused
 inline constexpr std::uint32_t api_minor = 1;  ///< a plugin may be older, never newer
+/// The oldest minor version whose plugins still run. Raised whenever a signature or a type of the
+/// API changes, which happens while the major version is 0.
+inline constexpr std::uint32_t api_minor_oldest = 1;
 
 struct AbiStamp {
   std::uint32_t size;               ///< sizeof(AbiStamp); compared first

@@ -16,6 +16,11 @@ Mission read_g2o(const std::filesystem::path& path);  ///< throws Error(data)
 
 void write_g2o(std::ostream& out, const Mission& mission);
 
+/// Of what a mission says: name, platform, poses, edges, georeference, fixes, kept lines. Not of
+/// payloads, and not of paths, line numbers and warnings, so that a moved folder stays the same.
+/// The parsers above fill in Mission::digest; who changes a mission afterwards calls this again.
+Digest mission_digest(const Mission& mission);
+
 /// The shortest decimal form that reads back bit for bit.
 std::string format_number(double value);
 

@@ -17,7 +17,8 @@ std::string read_file(const std::filesystem::path& path);  ///< throws Error(dat
 /// is destroyed without commit() removes what it wrote.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  enum class Durability { synced, rename_only };  ///< synced survives a power cut
+  explicit AtomicFile(std::filesystem::path path, Durability durability = Durability::synced);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -29,6 +30,7 @@ class AtomicFile {
  private:
   std::filesystem::path path_, temporary_;
   std::ofstream out_;
+  Durability durability_;
   bool committed_ = false;
 };
 
@@ -39,6 +41,8 @@ struct StampedPose {
   Stamp stamp;
   SE3 T_map_node;
 };
+/// Stamps are read exactly, up to nanoseconds. `where` names the text in messages.
+std::vector<StampedPose> parse_tum(std::string_view text, const std::filesystem::path& where);
 std::vector<StampedPose> read_tum(const std::filesystem::path& path);  ///< throws Error(file:line)
 std::string format_tum(const std::vector<StampedPose>& poses);
 

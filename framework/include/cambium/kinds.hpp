@@ -36,6 +36,8 @@ class Component {
 class MissionReader : public Component {
  public:
   static constexpr Kind kind = Kind::mission_reader;
+  /// Whether the path looks like what this reader reads; asked when a pipeline names no reader.
+  virtual bool accepts(const std::filesystem::path& path) const = 0;
   /// Throws Error(data); what a user should know but can live with goes to Mission::warnings.
   virtual Mission read(const std::filesystem::path& path, const Context& context) const = 0;
 };

@@ -38,7 +38,8 @@ std::string read_file(const std::filesystem::path& path) {
     throw Error(ErrorCode::data, path.string(), "is a folder, expected a file");
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in)
-    throw Error(ErrorCode::data, path.string(), "cannot be opened for reading: " + system_message());
+    throw Error(ErrorCode::data, path.string(),
+                "cannot be opened for reading: " + system_message());
   std::string text(std::size_t(in.tellg()), '\0');
   in.seekg(0);
   if (!in.read(text.data(), std::streamsize(text.size())))
@@ -46,11 +47,10 @@ std::string read_file(const std::filesystem::path& path) {
   return text;
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(temporary_name(path_)) {
+AtomicFile::AtomicFile(std::filesystem::path path, Durability durability)
+    : path_(std::move(path)), temporary_(temporary_name(path_)), durability_(durability) {
   out_.open(temporary_, std::ios::binary);
-  if (!out_)
-    throw Error(ErrorCode::data, path_.string(), "cannot be written: " + system_message());
+  if (!out_) throw Error(ErrorCode::data, path_.string(), "cannot be written: " + system_message());
 }
 
 AtomicFile::~AtomicFile() {
@@ -63,7 +63,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::commit() {
   out_.close();
   if (!out_) throw Error(ErrorCode::data, path_.string(), "cannot be written: " + system_message());
-  sync_to_disk(temporary_);
+  if (durability_ == Durability::synced) sync_to_disk(temporary_);
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) throw Error(ErrorCode::data, path_.string(), "cannot be written: " + error.message());

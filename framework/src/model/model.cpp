@@ -25,25 +25,38 @@ std::optional<std::size_t> Mission::index_of(NodeId id) const {
 
 const char* to_string(LoopState state) {
   switch (state) {
-    case LoopState::candidate: return "candidate";
-    case LoopState::registered: return "registered";
-    case LoopState::accepted: return "accepted";
-    case LoopState::rejected: return "rejected";
+    case LoopState::candidate:
+      return "candidate";
+    case LoopState::registered:
+      return "registered";
+    case LoopState::accepted:
+      return "accepted";
+    case LoopState::rejected:
+      return "rejected";
   }
   return "?";
 }
 
 const char* to_string(Kind kind) {
   switch (kind) {
-    case Kind::mission_reader: return "mission_reader";
-    case Kind::payload_filter: return "payload_filter";
-    case Kind::place_recognizer: return "place_recognizer";
-    case Kind::registration: return "registration";
-    case Kind::loop_verifier: return "loop_verifier";
-    case Kind::solver: return "solver";
-    case Kind::gnss_aligner: return "gnss_aligner";
-    case Kind::map_exporter: return "map_exporter";
-    case Kind::evaluator: return "evaluator";
+    case Kind::mission_reader:
+      return "mission_reader";
+    case Kind::payload_filter:
+      return "payload_filter";
+    case Kind::place_recognizer:
+      return "place_recognizer";
+    case Kind::registration:
+      return "registration";
+    case Kind::loop_verifier:
+      return "loop_verifier";
+    case Kind::solver:
+      return "solver";
+    case Kind::gnss_aligner:
+      return "gnss_aligner";
+    case Kind::map_exporter:
+      return "map_exporter";
+    case Kind::evaluator:
+      return "evaluator";
   }
   return "?";
 }

@@ -6,10 +6,13 @@
 namespace cambium {
 
 Vec6 residual(const SE3& T_tail_head, const SE3& T_map_tail, const SE3& T_map_head) {
-  const SE3 T = T_map_tail.inverse() * T_map_head;
-  const Quat dq = T_tail_head.q.conjugate() * T.q;
+  // Files give quaternions to six digits; the residual is that of the rotation they stand for.
+  const Quat inv = T_map_tail.q.normalized().conjugate();
+  // The difference is taken before the rotation: in a map of UTM size the other order loses digits.
+  const Vec3 t = inv * Vec3(T_map_head.t - T_map_tail.t);
+  const Quat dq = (T_tail_head.q.conjugate() * inv * T_map_head.q).normalized();
   Vec6 r;
-  r << T.t - T_tail_head.t, (dq.w() < 0 ? -2.0 : 2.0) * dq.vec();
+  r << t - T_tail_head.t, (dq.w() < 0 ? -2.0 : 2.0) * dq.vec();
   return r;
 }
 
@@ -22,7 +25,7 @@ double cost(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
     F += (weight.empty() ? 1.0 : weight[k]) * r.dot(f.information * r);
   }
   for (const auto& f : graph.attitude) {
-    const Vec3 up = T_map_node[f.node].q.conjugate() * Vec3::UnitZ();
+    const Vec3 up = T_map_node[f.node].q.normalized().conjugate() * Vec3::UnitZ();
     const Vec3 r = up - f.up_node * f.up_node.dot(up);
     F += r.squaredNorm() / (f.sigma * f.sigma);
   }

@@ -2,6 +2,7 @@
 #include "cambium/se3.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace cambium {
 namespace {
@@ -38,7 +39,9 @@ Mat3 left_jacobian(const Vec3& w) {
   const Mat3 W = skew(w);
   if (theta < 1e-3)
     return Mat3::Identity() + (0.5 - theta2 / 24.0) * W + (1.0 / 6.0 - theta2 / 120.0) * W * W;
-  return Mat3::Identity() + ((1.0 - std::cos(theta)) / theta2) * W +
+  // (1 - cos theta) / theta^2, written so that small angles do not cancel.
+  const double half = std::sin(0.5 * theta) / theta;
+  return Mat3::Identity() + 2.0 * half * half * W +
          ((theta - std::sin(theta)) / (theta2 * theta)) * W * W;
 }
 
@@ -46,9 +49,9 @@ Mat3 left_jacobian_inverse(const Vec3& w) {
   const double theta2 = w.squaredNorm();
   const double theta = std::sqrt(theta2);
   const Mat3 W = skew(w);
-  const double k = theta < 1e-3 ? 1.0 / 12.0 + theta2 / 720.0
-                                : 1.0 / theta2 - std::cos(0.5 * theta) /
-                                                     (2.0 * theta * std::sin(0.5 * theta));
+  const double k =
+      theta < 1e-3 ? 1.0 / 12.0 + theta2 / 720.0
+                   : 1.0 / theta2 - std::cos(0.5 * theta) / (2.0 * theta * std::sin(0.5 * theta));
   return Mat3::Identity() - 0.5 * W + k * W * W;
 }
 
@@ -67,6 +70,11 @@ Vec6 SE3::log() const {
 }
 
 SE3 SE3::from_matrix(const Mat4& T) {
+  // The SVD of a matrix with NaN leaves its factors unset; the caller must see NaN instead.
+  if (!T.allFinite()) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    return {Quat(nan, nan, nan, nan), Vec3::Constant(nan)};
+  }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(T.topLeftCorner<3, 3>(),
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d R = svd.matrixU() * svd.matrixV().transpose();

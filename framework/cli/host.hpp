@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the commands share: plugins, threads, cache, log style, Ctrl-C.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/engine.hpp"
+#include "plugins/loader.hpp"
+
+namespace cambium::cli {
+
+/// Options of every command that opens plugins.
+struct PluginOptions {
+  std::vector<std::string> path;
+  void add_to(CLI::App& app);
+  /// Refused libraries become warnings on stderr.
+  PluginLoader load() const;
+};
+
+/// Options of every command that runs steps.
+struct EngineFlags {
+  int threads = 0;
+  std::string memory = "4G";
+  std::string cache;
+  bool json = false, quiet = false, verbose = false;
+  void add_to(CLI::App& app);
+  Progress progress() const;
+  EngineOptions options() const;  ///< installs the Ctrl-C handler
+};
+
+/// "4G", "500M", "1.5G", plain bytes. Throws Error(config).
+std::size_t parse_bytes(const std::string& text);
+
+/// Every command adds itself; its callback runs it. Errors leave as cambium::Error.
+void add_run(CLI::App& app);
+void add_validate(CLI::App& app);
+void add_plugins(CLI::App& app);
+void add_schema(CLI::App& app);
+void add_inspect(CLI::App& app);
+
+}  // namespace cambium::cli

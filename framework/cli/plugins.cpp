@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "host.hpp"
+#include "pipeline/describe.hpp"
+#include "pipeline/diagnostics.hpp"
+
+namespace cambium::cli {
+namespace {
+
+void list(const Registry& registry) {
+  std::size_t width = 0;
+  for (const auto& [key, c] : registry.all()) width = std::max(width, c.name.size());
+  std::string kind;
+  for (const auto& [key, c] : registry.all()) {
+    if (kind != to_string(c.kind)) {
+      kind = to_string(c.kind);
+      fmt::print("{}\n", kind);
+    }
+    fmt::print("  {:<{}}  {}  ({} {})\n", c.name, width, c.summary, c.plugin, c.plugin_version);
+  }
+  if (registry.all().empty())
+    fmt::print(stderr,
+               "no plugins found; name their folder with --plugin-path or "
+               "CAMBIUM_PLUGIN_PATH\n");
+}
+
+void describe(const Registry& registry, const std::string& name) {
+  bool found = false;
+  std::vector<std::string> names;
+  for (const auto& [key, c] : registry.all()) {
+    names.push_back(c.name);
+    if (c.name != name) continue;
+    fmt::print("{}", describe_markdown(c));
+    found = true;
+  }
+  if (!found)
+    throw Error(ErrorCode::config, "",
+                fmt::format("no plugin is called '{}'{}", name, suggestion(name, names)));
+}
+
+}  // namespace
+
+void add_plugins(CLI::App& app) {
+  CLI::App* sub = app.add_subcommand("plugins", "What can be named in a pipeline");
+  sub->require_subcommand(1);
+  sub->footer("Example: cambium plugins describe scan_context");
+  auto options = std::make_shared<PluginOptions>();
+  options->add_to(*sub);
+  sub->add_subcommand("list", "All plugins by kind")->fallthrough()->callback([options] {
+    list(options->load().registry());
+  });
+  auto name = std::make_shared<std::string>();
+  CLI::App* d = sub->add_subcommand("describe", "One plugin with its parameters, as Markdown");
+  d->fallthrough()->add_option("NAME", *name, "As in a pipeline")->required();
+  d->callback([options, name] { describe(options->load().registry(), *name); });
+}
+
+}  // namespace cambium::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Digests of the inputs of work items: the parts of their cache keys.
+#pragma once
+#include "cambium/atlas.hpp"
+
+namespace cambium {
+
+Digest payloads_key(const Atlas& atlas, std::size_t mission);  ///< of all payloads of a mission
+Digest payload_key(const Atlas& atlas, NodeRef node);          ///< zero when it has none
+Digest poses_key(const std::vector<SE3>& poses);
+
+/// Of everything: missions, poses, payloads, loops, islands.
+Digest atlas_key(const Atlas& atlas);
+
+}  // namespace cambium

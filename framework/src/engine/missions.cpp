@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/missions.hpp"
+
+#include <fmt/format.h>
+#include <glob.h>
+
+#include <algorithm>
+
+namespace cambium {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Source {
+  fs::path path;
+  MissionSpec spec;
+  Configured reader;
+};
+
+std::vector<fs::path> expand(const MissionSpec& spec, Diagnostics& diagnostics) {
+  if (fs::exists(spec.path)) return {spec.path};
+  glob_t found{};
+  std::vector<fs::path> paths;
+  if (::glob(spec.path.c_str(), 0, nullptr, &found) == 0)
+    paths.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  ::globfree(&found);
+  if (paths.empty())
+    diagnostics.add(spec.where, fmt::format("no mission at '{}': no such folder or file, and no "
+                                            "match as a glob",
+                                            spec.path));
+  return paths;
+}
+
+std::optional<Configured> find_reader(const Source& source, const Registry& registry,
+                                      Diagnostics& diagnostics) {
+  const auto& spec = source.spec;
+  if (!spec.reader.empty())
+    return configure(registry, Kind::mission_reader, spec.reader, spec.where, spec.params,
+                     diagnostics);
+  std::vector<std::string> accepting, known;
+  for (const auto& [key, registered] : registry.all()) {
+    if (key.first != Kind::mission_reader) continue;
+    known.push_back(key.second);
+    const auto reader = registered.create();
+    if (dynamic_cast<const MissionReader&>(*reader).accepts(source.path))
+      accepting.push_back(key.second);
+  }
+  if (accepting.size() == 1)
+    return configure(registry, Kind::mission_reader, accepting[0], spec.where, spec.params,
+                     diagnostics);
+  diagnostics.add(spec.where,
+                  fmt::format("{} reader accepts '{}'; name one with 'reader:'{}",
+                              accepting.empty() ? "no" : "more than one", source.path.string(),
+                              suggestion("", accepting.empty() ? known : accepting)));
+  return std::nullopt;
+}
+
+// Ids of the fused graph: 10 000 per mission, grown in steps of 10 000 when a mission needs more.
+// Ids that do not start near zero (time stamps, GTSAM symbols) are moved to the front of the range.
+void assign_offsets(std::vector<MissionState>& missions) {
+  constexpr NodeId stride = 10000;
+  NodeId next = 0;
+  for (auto& m : missions) {
+    const auto& nodes = m.mission->nodes;
+    const NodeId low = nodes.front().id, high = nodes.back().id;
+    const NodeId shift = low >= 0 && high < 100 * stride ? 0 : low;
+    m.id_offset = next - shift;
+    next += ((high - shift) / stride + 1) * stride;
+  }
+}
+
+// What the engine relies on; a reader that breaks it is named before anything goes wrong.
+void check_mission(const Mission& m, const Source& source) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorCode::data, source.path.string(), what);
+  };
+  if (m.nodes.empty()) refuse("the mission has no nodes");
+  for (std::size_t i = 0; i < m.nodes.size(); ++i) {
+    if (i > 0 && m.nodes[i].id <= m.nodes[i - 1].id)
+      refuse(fmt::format("the reader gave node {} after node {}; expected ascending ids",
+                         m.nodes[i].id, m.nodes[i - 1].id));
+    if (!m.nodes[i].T_mission_node.finite())
+      refuse(fmt::format("the pose of node {} is not finite", m.nodes[i].id));
+  }
+  for (const Edge& e : m.edges)
+    if (!m.index_of(e.tail) || !m.index_of(e.head))
+      refuse(fmt::format("the edge {}-{} (line {}) names a node that is not there", e.tail, e.head,
+                         e.line));
+}
+
+void check_names(const std::vector<Mission>& missions) {
+  for (std::size_t i = 1; i < missions.size(); ++i) {
+    const Mission &a = missions[i - 1], &b = missions[i];
+    if (a.name == b.name)
+      throw Error(ErrorCode::data, b.graph_file.string(),
+                  fmt::format("the mission name '{}' is used twice, also by {}; give one of them "
+                              "another name with {{path: ..., name: ...}}",
+                              a.name, a.graph_file.string()));
+  }
+}
+
+MissionState initial_state(std::shared_ptr<const Mission> mission, std::uint32_t island) {
+  std::vector<SE3> poses;
+  for (const Node& n : mission->nodes) poses.push_back(n.T_mission_node);
+  return {std::move(mission), std::make_shared<const std::vector<SE3>>(std::move(poses)), island,
+          0};
+}
+
+Atlas make_atlas(std::vector<Mission> missions, const Engine& engine) {
+  Atlas atlas;
+  auto payloads = std::make_shared<PayloadSources>();
+  for (auto& m : missions) {
+    auto& sources = payloads->emplace_back();
+    for (const Node& n : m.nodes) sources.push_back(stored(n.payload, engine.store()));
+    const auto index = std::uint32_t(atlas.missions.size());
+    atlas.missions.push_back(initial_state(std::make_shared<const Mission>(std::move(m)), index));
+    atlas.islands.push_back({{index}, atlas.missions.back().mission->georeference});
+  }
+  atlas.payloads = payloads;
+  assign_offsets(atlas.missions);
+  return atlas;
+}
+
+}  // namespace
+
+Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const Engine& engine) {
+  Diagnostics diagnostics;
+  std::vector<Source> sources;
+  for (const auto& spec : pipeline.missions)
+    for (const auto& path : expand(spec, diagnostics)) {
+      Source source{path, spec, {}};
+      if (auto reader = find_reader(source, registry, diagnostics)) {
+        source.reader = *reader;
+        sources.push_back(std::move(source));
+      }
+    }
+  diagnostics.throw_if_any();
+  if (sources.empty())
+    throw Error(ErrorCode::config, pipeline.file.string(),
+                "no missions; name them under 'missions:' or on the command line");
+
+  std::vector<Mission> missions(sources.size());
+  engine.progress().begin("read missions");
+  engine.progress().expect(sources.size());
+  engine.parallel_for(sources.size(), [&](std::size_t i) {
+    const auto context = engine.context(digest_bytes(sources[i].path.string()), pipeline.seed);
+    missions[i] = sources[i].reader.as<MissionReader>().read(sources[i].path, *context);
+    if (!sources[i].spec.name.empty()) missions[i].name = sources[i].spec.name;
+    check_mission(missions[i], sources[i]);
+    engine.progress().advance();
+  });
+  std::stable_sort(missions.begin(), missions.end(),
+                   [](const Mission& a, const Mission& b) { return a.name < b.name; });
+  check_names(missions);
+  std::size_t nodes = 0;
+  for (const auto& m : missions) nodes += m.nodes.size();
+  engine.progress().end(fmt::format("{} missions, {} nodes", missions.size(), nodes));
+  for (const auto& m : missions)
+    for (const auto& w : m.warnings) engine.progress().log(LogLevel::warning, w);
+  return make_atlas(std::move(missions), engine);
+}
+
+}  // namespace cambium

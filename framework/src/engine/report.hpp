@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run folder says about the run: report.json and ledger.jsonl.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "engine/steps.hpp"
+
+namespace cambium {
+
+using Json = nlohmann::ordered_json;
+
+/// `missions`, `islands`, `steps`, `metrics`; see docs/formats.md.
+Json report_json(const Known& known, const std::vector<StepRecord>& steps,
+                 const std::vector<std::string>& warnings);
+
+/// One line per candidate that was ever proposed: who proposed it, scores, verdict and reason,
+/// final residual.
+std::string ledger_jsonl(const Atlas& atlas);
+
+}  // namespace cambium

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/wiring.hpp"
+#include "pipeline/binder.hpp"
+#include "pipeline/params.hpp"
+
+namespace cambium {
+namespace {
+
+std::vector<std::string> names_of(const Registry& registry, Kind kind) {
+  std::vector<std::string> names;
+  for (const auto& [key, component] : registry.all())
+    if (key.first == kind) names.push_back(key.second);
+  return names;
+}
+
+std::optional<Step> resolve_step(const StepSpec& spec, const Registry& registry,
+                                 Diagnostics& diagnostics) {
+  Step step;
+  step.verb = spec.verb;
+  step.keys = spec.keys;
+  step.plugin = spec.plugin;
+  step.where = spec.where;
+  auto configured = configure(registry, spec.verb->kind, spec.plugin, spec.plugin_where,
+                              spec.params, diagnostics);
+  if (!configured) return std::nullopt;
+  step.registered = registry.find(spec.verb->kind, spec.plugin);
+  step.configured = *configured;
+  for (const auto& [platform, params] : spec.platform_params) {
+    auto other = configure(registry, spec.verb->kind, spec.plugin, spec.plugin_where,
+                           merged(spec.params, params), diagnostics);
+    if (other) step.by_platform[platform] = *other;
+  }
+  return step;
+}
+
+}  // namespace
+
+const Configured& Step::for_platform(int platform_id) const {
+  const auto it = by_platform.find(platform_id);
+  return it == by_platform.end() ? configured : it->second;
+}
+
+const Configured& Step::for_pair(int target_platform, int source_platform) const {
+  return by_platform.contains(target_platform) ? for_platform(target_platform)
+                                               : for_platform(source_platform);
+}
+
+std::optional<Configured> configure(const Registry& registry, Kind kind, const std::string& name,
+                                    const std::string& name_where, const Yaml& params,
+                                    Diagnostics& diagnostics) {
+  const Registered* registered = registry.find(kind, name);
+  if (!registered) {
+    diagnostics.add(name_where, fmt::format("unknown {} '{}'{}", to_string(kind), name,
+                                            suggestion(name, names_of(registry, kind))));
+    return std::nullopt;
+  }
+  const std::shared_ptr<Component> component = registered->create();
+  bind_params(*component, params, diagnostics);
+  const std::string canonical = canonical_params(*component);
+  const Digest key =
+      Hasher().add(registered->build).add(to_string(kind)).add(name).add(canonical).digest();
+  return Configured{component, canonical, key};
+}
+
+ResolvedPipeline resolve(const Pipeline& pipeline, const Registry& registry) {
+  Diagnostics diagnostics;
+  ResolvedPipeline out{pipeline, {}};
+  for (const auto& spec : pipeline.steps)
+    if (auto step = resolve_step(spec, registry, diagnostics))
+      out.steps.push_back(std::move(*step));
+  check_wiring(pipeline, diagnostics);
+  diagnostics.throw_if_any();
+  return out;
+}
+
+std::string to_yaml(const ResolvedPipeline& p) {
+  const auto quoted = [](const std::string& s) { return nlohmann::json(s).dump(); };
+  std::string out = fmt::format("version: 1\nseed: {}\nmissions:\n", p.spec.seed);
+  for (const auto& m : p.spec.missions) out += fmt::format("  - path: {}\n", quoted(m.path));
+  if (p.spec.missions.empty()) out += "  []\n";
+  out += "steps:\n";
+  std::map<int, std::map<std::string, std::string>> platforms;
+  for (const auto& s : p.steps) {
+    out += fmt::format("  - {}: {}\n", s.verb->word, s.plugin);
+    StepKeys keys = s.keys;
+    for (const auto& k : list_params(keys))
+      out += fmt::format("    {}: {}\n", k.name, k.value.dump());
+    out += fmt::format("    params: {}\n", s.configured.params);
+    for (const auto& [id, c] : s.by_platform) platforms[id][s.verb->word] = c.params;
+  }
+  if (!platforms.empty()) out += "platforms:\n";
+  for (const auto& [id, words] : platforms) {
+    out += fmt::format("  {}:\n", id);
+    for (const auto& [word, params] : words)
+      out += fmt::format("    {}: {{params: {}}}\n", word, params);
+  }
+  return out;
+}
+
+}  // namespace cambium

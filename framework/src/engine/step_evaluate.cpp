@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/keys.hpp"
+#include "engine/steps.hpp"
+
+namespace cambium {
+namespace {
+
+// The truth is an input like any other: when a file of it changes, the metrics are computed again.
+Digest truth_key(const std::filesystem::path& reference, const Atlas& atlas) {
+  Hasher hasher;
+  std::vector<std::filesystem::path> files;
+  const auto collect = [&](const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) return;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.is_regular_file() && entry.path().extension() == ".tum")
+        files.push_back(entry.path());
+  };
+  if (!reference.empty()) collect(reference);
+  for (const auto& m : atlas.missions) collect(m.mission->folder);
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files) hasher.add(file.string()).add(digest_file(file));
+  return hasher.digest();
+}
+
+}  // namespace
+
+Known run_evaluate(Known known, const StepScope& scope) {
+  const Configured& c = scope.step.configured;
+  const std::filesystem::path reference = scope.step.keys.reference;
+  std::vector<Metric> metrics;
+  scope.run_items(1, [&](std::size_t) {
+    bool hit = false;
+    const Digest input =
+        Hasher().add(atlas_key(known.atlas)).add(truth_key(reference, known.atlas)).digest();
+    metrics = scope.cached<std::vector<Metric>>(c, input, hit, [&](const Context& context) {
+      return c.as<Evaluator>().evaluate(known.atlas, reference, context);
+    });
+    return hit;
+  });
+  const std::string& label = scope.step.keys.label;
+  for (Metric& m : metrics)
+    if (!label.empty()) m.name = label + "." + m.name;
+  scope.record.summary = fmt::format("{} metrics", metrics.size());
+  if (!metrics.empty())
+    scope.record.summary += fmt::format(", {} {:.4g} {}", metrics.front().name,
+                                        metrics.front().value, metrics.front().unit);
+  known.metrics.insert(known.metrics.end(), metrics.begin(), metrics.end());
+  return known;
+}
+
+}  // namespace cambium

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/describe.hpp"
+
+#include <fmt/format.h>
+
+#include "pipeline/binder.hpp"
+#include "pipeline/params.hpp"
+
+namespace cambium {
+
+std::string describe_markdown(const Registered& c) {
+  std::string out = fmt::format("## {}\n\n{}. A {} of the plugin `{}` {}.\n\n", c.name, c.summary,
+                                to_string(c.kind), c.plugin, c.plugin_version);
+  const auto component = c.create();
+  const auto params = list_params(*component);
+  if (params.empty()) return out + "It has no parameters.\n\n";
+  out += "| parameter | default | allowed | meaning |\n|---|---|---|---|\n";
+  for (const auto& p : params) {
+    const std::string allowed = to_text(p.constraint);
+    std::string value = p.value.dump();
+    if (!p.constraint.unit.empty()) value += " " + p.constraint.unit;
+    out += fmt::format("| `{}` | {} | {} | {} |\n", p.name, value,
+                       allowed.empty() ? p.type : allowed, p.doc);
+  }
+  return out + "\n";
+}
+
+}  // namespace cambium

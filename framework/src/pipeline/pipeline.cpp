@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/pipeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cambium/files.hpp"
+#include "pipeline/binder.hpp"
+#include "pipeline/overrides.hpp"
+
+namespace cambium {
+namespace {
+
+namespace fs = std::filesystem;
+const std::vector<std::string> top_keys = {"version",   "extends", "missions", "steps",
+                                           "platforms", "seed",    "set"};
+
+class Parser {
+ public:
+  explicit Parser(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  /// The document of `file` on top of those that it extends.
+  Yaml load(const fs::path& file, int depth = 0) {
+    Yaml doc = parse_yaml(read_file(file), file.string(), diagnostics_);
+    if (!doc.is_map()) {
+      diagnostics_.add(file.string(),
+                       "expected a map with 'version' and 'steps', found " + doc.shown());
+      return {};
+    }
+    make_paths_absolute(doc, file.parent_path());
+    const Yaml* base = doc.find("extends");
+    if (!base) return doc;
+    if (!base->is_scalar() || depth > 8) {
+      diagnostics_.add(base->where, depth > 8 ? "extends itself, or more than 8 files deep"
+                                              : "'extends' must be a file, found " + base->shown());
+      return doc;
+    }
+    return over_base(load(file.parent_path() / base->scalar, depth + 1), doc);
+  }
+
+  Pipeline read(const Yaml& doc) {
+    Pipeline p;
+    check_keys(doc, top_keys, "the pipeline");
+    check_version(doc);
+    if (const Yaml* seed = doc.find("seed")) read_seed(*seed, p);
+    if (const Yaml* missions = doc.find("missions"))
+      for (const Yaml& m : items(*missions, "missions")) read_mission(m, p);
+    if (const Yaml* steps = doc.find("steps"))
+      for (const Yaml& s : items(*steps, "steps")) read_step(s, p);
+    else
+      diagnostics_.add(doc.where, "'steps' is missing; expected a list such as '- optimize: ...'");
+    if (const Yaml* platforms = doc.find("platforms")) read_platforms(*platforms, p);
+    return p;
+  }
+
+  /// `set:` of the file: the same as overrides on the command line, with a place in the file.
+  void read_set(const Yaml& doc, Pipeline& p) {
+    const Yaml* set = doc.find("set");
+    if (!set) return;
+    if (!set->is_map()) {
+      diagnostics_.add(set->where,
+                       "'set' must be a map such as 'optimize.loss: huber', found " + set->shown());
+      return;
+    }
+    for (const auto& [key, value] : set->map) apply_override(p, key, value, diagnostics_);
+  }
+
+ private:
+  static void make_paths_absolute(Yaml& doc, const fs::path& folder) {
+    const auto fix = [&](Yaml& y) {
+      if (y.is_scalar()) y.scalar = (fs::absolute(folder) / y.scalar).lexically_normal().string();
+    };
+    for (auto& item : doc.map) {
+      if (item.key.scalar != "missions") continue;
+      for (Yaml& m : item.value.list) {
+        fix(m);
+        for (auto& part : m.map)
+          if (part.key.scalar == "path") fix(part.value);
+      }
+    }
+  }
+
+  // The lists are replaced whole; `platforms` and `set` are merged key by key.
+  static Yaml over_base(const Yaml& base, const Yaml& doc) {
+    Yaml out = merged(base, doc);
+    for (const char* key : {"platforms", "set"}) {
+      const Yaml *a = base.find(key), *b = doc.find(key);
+      if (!a || !b || !a->is_map() || !b->is_map()) continue;
+      Yaml name;
+      name.type = Yaml::Type::scalar;
+      name.scalar = key;
+      out.set(name, merged(*a, *b));
+    }
+    return out;
+  }
+
+  void check_keys(const Yaml& map, const std::vector<std::string>& known, const std::string& of) {
+    for (const auto& [key, value] : map.map)
+      if (std::find(known.begin(), known.end(), key.scalar) == known.end())
+        diagnostics_.add(key.where, fmt::format("unknown key '{}' in {}{}", key.scalar, of,
+                                                suggestion(key.scalar, known)));
+  }
+
+  void check_version(const Yaml& doc) {
+    const Yaml* version = doc.find("version");
+    if (!version)
+      diagnostics_.add(doc.where, "'version' is missing; expected 'version: 1'");
+    else if (version->as_int() != 1)
+      diagnostics_.add(version->where, "'version' must be 1, found " + version->shown());
+  }
+
+  const std::vector<Yaml>& items(const Yaml& list, const char* name) {
+    if (!list.is_list())
+      diagnostics_.add(list.where,
+                       fmt::format("'{}' must be a list, found {}", name, list.shown()));
+    return list.list;
+  }
+
+  void read_seed(const Yaml& seed, Pipeline& p) {
+    const auto value = seed.as_int();
+    if (!value || *value < 0)
+      diagnostics_.add(seed.where, "'seed' must be a whole number from 0, found " + seed.shown());
+    else
+      p.seed = std::uint64_t(*value);
+  }
+
+  void read_mission(const Yaml& m, Pipeline& p) {
+    MissionSpec spec;
+    spec.where = m.where;
+    if (m.is_scalar()) spec.path = m.scalar;
+    if (m.is_map()) {
+      check_keys(m, {"path", "name", "reader", "params"}, "a mission");
+      for (const auto& [key, value] : m.map) {
+        if (key.scalar == "params")
+          spec.params = value;
+        else if (!value.is_scalar())
+          diagnostics_.add(value.where,
+                           fmt::format("'{}' must be a text, found {}", key.scalar, value.shown()));
+        else if (key.scalar == "path")
+          spec.path = value.scalar;
+        else if (key.scalar == "name")
+          spec.name = value.scalar;
+        else if (key.scalar == "reader")
+          spec.reader = value.scalar;
+      }
+    }
+    if (spec.path.empty())
+      diagnostics_.add(m.where,
+                       "a mission must be a path or a map with 'path', found " + m.shown());
+    else
+      p.missions.push_back(std::move(spec));
+  }
+
+  void read_step(const Yaml& s, Pipeline& p) {
+    StepSpec step;
+    step.where = s.where;
+    Yaml keys;
+    keys.type = Yaml::Type::map;
+    keys.where = s.where;
+    for (const auto& item : s.map) {
+      if (const Verb* verb = find_verb(item.key.scalar)) {
+        if (step.verb)
+          diagnostics_.add(item.key.where, fmt::format("a second verb '{}' in one step, after '{}'",
+                                                       verb->word, step.verb->word));
+        step.verb = verb;
+        step.plugin = item.value.scalar;
+        step.plugin_where = item.value.where;
+        if (!item.value.is_scalar())
+          diagnostics_.add(item.value.where, fmt::format("'{}' must name a plugin, found {}",
+                                                         verb->word, item.value.shown()));
+      } else if (item.key.scalar == "params") {
+        step.params = item.value;
+      } else {
+        keys.map.push_back(item);
+      }
+    }
+    if (!step.verb) {
+      const std::string word = s.map.empty() ? s.scalar : s.map.front().key.scalar;
+      diagnostics_.add(s.where,
+                       "a step must open with a verb and a plugin such as 'optimize: "
+                       "ceres', found '" +
+                           word + "'" + suggestion(word, verb_words()));
+      return;
+    }
+    step.keys = StepKeys(step.verb);
+    bind_params(step.keys, keys, diagnostics_);
+    p.steps.push_back(std::move(step));
+  }
+
+  void read_platforms(const Yaml& platforms, Pipeline& p) {
+    for (const auto& [id, verbs_of] : platforms.map) {
+      const auto number = id.as_int();
+      if (!number) {
+        diagnostics_.add(id.where,
+                         "a platform must be a PLATFORM_ID (a whole number), found " + id.shown());
+        continue;
+      }
+      for (const auto& [word, body] : verbs_of.map) read_platform(int(*number), word, body, p);
+    }
+  }
+
+  void read_platform(int id, const Yaml& word, const Yaml& body, Pipeline& p) {
+    const Verb* verb = find_verb(word.scalar);
+    if (!verb || !verb->per_platform) {
+      std::vector<std::string> allowed;
+      for (const auto& v : verbs())
+        if (v.per_platform) allowed.push_back(v.word);
+      diagnostics_.add(word.where, fmt::format("'{}' cannot differ between platforms{}",
+                                               word.scalar, suggestion(word.scalar, allowed)));
+      return;
+    }
+    check_keys(body, {"params"}, "a platform's step");
+    const Yaml* params = body.find("params");
+    bool used = false;
+    for (auto& step : p.steps)
+      if (step.verb == verb && params) {
+        step.platform_params[id] = *params;
+        used = true;
+      }
+    if (!used)
+      diagnostics_.add(word.where,
+                       fmt::format("no step '{}' with params to override here", word.scalar));
+  }
+
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+Pipeline load_pipeline(const fs::path& file, const std::vector<std::string>& overrides) {
+  Diagnostics diagnostics;
+  Parser parser(diagnostics);
+  const Yaml doc = parser.load(file);
+  diagnostics.throw_if_any();  // what follows needs a map
+  Pipeline p = parser.read(doc);
+  p.file = file;
+  parser.read_set(doc, p);
+  for (const auto& text : overrides) apply_override(p, text, diagnostics);
+  diagnostics.throw_if_any();
+  return p;
+}
+
+}  // namespace cambium
