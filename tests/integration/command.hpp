@@ -14,11 +14,12 @@ struct Outcome {
   std::string out, err;
 };
 
-/// `cambium ARGUMENTS...` with the plugins of this build and no cache unless the arguments name one.
-Outcome cambium(const std::vector<std::string>& arguments);
+/// `cambium ARGUMENTS...` with the plugins of this build and no cache unless the arguments name
+/// one.
+Outcome run_cambium(const std::vector<std::string>& arguments);
 
 /// The same, interrupted (SIGINT) after `seconds`.
-Outcome cambium_interrupted(const std::vector<std::string>& arguments, double seconds);
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds);
 
 nlohmann::json read_json(const std::filesystem::path& path);
 

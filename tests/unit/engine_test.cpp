@@ -18,8 +18,9 @@ struct WordReader final : MissionReader {
   bool accepts(const fs::path&) const override { return true; }
   Mission read(const fs::path& path, const Context&) const override {
     std::vector<SE3> poses;
-    for (int i = 0; i < 6; ++i) poses.push_back(frame_of(read_file(path)) * SE3::from_yaw(0, {5.0 * i, 0, 0}));
-    Mission m = testing::make_mission(path.stem().string(), poses);
+    for (int i = 0; i < 6; ++i)
+      poses.push_back(frame_of(read_file(path)) * SE3::from_yaw(0, {5.0 * i, 0, 0}));
+    Mission m = cambium::testing::make_mission(path.stem().string(), poses);
     m.digest = digest_file(path);
     return m;
   }
@@ -45,7 +46,8 @@ struct SameNumber final : PlaceRecognizer {
 };
 
 struct TrustGuess final : Registration {
-  Alignment align(const Prepared&, const Prepared&, const SE3& guess, const Context&) const override {
+  Alignment align(const Prepared&, const Prepared&, const SE3& guess,
+                  const Context&) const override {
     Alignment a;
     a.converged = true;
     a.T_target_source = guess;
@@ -83,8 +85,9 @@ class EngineRun : public ::testing::Test {
     registry.add<AcceptAll>("accept", "");
     registry.add<StandStill>("still", "");
     registry.add<NotANumber>("nan", "");
-    write_file(folder / "p.yaml", "version: 1\nsteps: [{recognize: same_number}, {register: trust}, "
-                                  "{verify: accept}, {optimize: still}]\n");
+    write_file(folder / "p.yaml",
+               "version: 1\nsteps: [{recognize: same_number}, {register: trust}, "
+               "{verify: accept}, {optimize: still}]\n");
   }
 
   std::string mission(const std::string& name) {
@@ -108,7 +111,7 @@ class EngineRun : public ::testing::Test {
     return run_pipeline(options, prepare_run(options, registry), registry, engine);
   }
 
-  testing::TemporaryFolder folder;
+  cambium::testing::TemporaryFolder folder;
   Registry registry;
 };
 
@@ -118,8 +121,10 @@ TEST_F(EngineRun, FusesMissionsFromDifferentFrames) {
   const auto r = run({mission("a"), mission("bb")}, "out");
   ASSERT_EQ(r.known.atlas.islands.size(), 1u);
   for (std::uint32_t i = 0; i < 6; ++i)
-    EXPECT_LT((r.known.atlas.T_map_node({0, i}).t - r.known.atlas.T_map_node({1, i}).t).norm(), 1e-9);
-  for (const char* name : {"fused.g2o", "a.tum", "bb.tum", "resolved.yaml", "report.json", "ledger.jsonl"})
+    EXPECT_LT((r.known.atlas.T_map_node({0, i}).t - r.known.atlas.T_map_node({1, i}).t).norm(),
+              1e-9);
+  for (const char* name :
+       {"fused.g2o", "a.tum", "bb.tum", "resolved.yaml", "report.json", "ledger.jsonl"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
 }
 
@@ -169,8 +174,10 @@ TEST_F(EngineRun, SaysWhichPartOfTheKeyChanged) {
   const Engine engine(engine_options, progress);
   run_pipeline(options, prepare_run(options, registry), registry, engine);
   const std::string text = ::testing::internal::GetCapturedStderr();
-  EXPECT_NE(text.find("recognize same_number: changed: margin: 1.0 -> 3.0"), std::string::npos) << text;
-  EXPECT_NE(text.find("optimize still: nothing changed, taken from the cache"), std::string::npos) << text;
+  EXPECT_NE(text.find("recognize same_number: changed: margin: 1.0 -> 3.0"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("optimize still: nothing changed, taken from the cache"), std::string::npos)
+      << text;
 }
 
 TEST_F(EngineRun, RefusesWhatIsNotARunFolder) {

@@ -36,8 +36,8 @@ const SE3 T_a_b = SE3::from_yaw(1.2, {30, -20, 5});
 
 Atlas two_missions(int wrong) {
   const auto path = straight_path(20);
-  Atlas atlas = testing::make_atlas(
-      {testing::make_mission("a", path), testing::make_mission("b", seen_from(T_a_b, path))});
+  Atlas atlas = cambium::testing::make_atlas(
+      {cambium::testing::make_mission("a", path), cambium::testing::make_mission("b", seen_from(T_a_b, path))});
   for (std::uint32_t i = 0; i < 20; ++i) {
     // The first ones are wrong, so that "take the first loop" would fail.
     const SE3 T = int(i) < wrong ? SE3::from_yaw(0.7 * i, {9.0 + i, 4, 0}) : SE3{};
@@ -54,7 +54,8 @@ TEST(JoinIslands, PlacesAMissionByWhatMostLoopsSay) {
     ASSERT_EQ(joined.islands.size(), 1u);
     for (std::uint32_t i = 0; i < 20; ++i)
       EXPECT_LT((joined.T_map_node({0, i}).t - joined.T_map_node({1, i}).t).norm(), 1e-9);
-    EXPECT_EQ(joined.T_map_node({0, 3}).t, two_missions(0).T_map_node({0, 3}).t);  // a gives the frame
+    EXPECT_EQ(joined.T_map_node({0, 3}).t,
+              two_missions(0).T_map_node({0, 3}).t);  // a gives the frame
   }
 }
 
@@ -69,9 +70,9 @@ TEST(JoinIslands, MissionsWithoutAcceptedLoopsStayIslands) {
 
 TEST(JoinIslands, ChainsAndLaterWavesGrowTheSameIsland) {
   const auto path = straight_path(5);
-  Atlas atlas = testing::make_atlas({testing::make_mission("a", path),
-                                     testing::make_mission("b", seen_from(T_a_b, path)),
-                                     testing::make_mission("c", seen_from(T_a_b.inverse(), path))});
+  Atlas atlas = cambium::testing::make_atlas({cambium::testing::make_mission("a", path),
+                                     cambium::testing::make_mission("b", seen_from(T_a_b, path)),
+                                     cambium::testing::make_mission("c", seen_from(T_a_b.inverse(), path))});
   atlas.loops = {accepted({1, 2}, {2, 2}, SE3{})};
   atlas = join_islands(atlas);
   ASSERT_EQ(atlas.islands.size(), 2u);

@@ -11,7 +11,7 @@ namespace {
 
 class PipelineFile : public ::testing::Test {
  protected:
-  testing::TemporaryFolder folder;
+  cambium::testing::TemporaryFolder folder;
 
   Pipeline load(const std::string& text, const std::vector<std::string>& set = {}) {
     write_file(folder / "p.yaml", text);
@@ -62,6 +62,16 @@ platforms:
   EXPECT_EQ(p.steps[1].platform_params.at(2).find("max_distance")->as_double(), 2.0);
 }
 
+TEST_F(PipelineFile, IsFoundByItsBareNameInTheCurrentFolder) {
+  load("version: 1\nmissions: [a]\nsteps: [{recognize: scan_context}]\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  std::string mission;
+  EXPECT_NO_THROW(mission = load_pipeline("p.yaml", {}).missions.at(0).path);
+  std::filesystem::current_path(before);
+  EXPECT_EQ(mission, (std::filesystem::canonical(folder.path()) / "a").string());
+}
+
 TEST_F(PipelineFile, NamesEveryMistakeWithItsPlace) {
   const std::string text = mistakes(R"(version: 2
 missons: [a]
@@ -74,7 +84,8 @@ steps:
   - [1]
 )");
   EXPECT_CONTAINS(text, "p.yaml:1:10: 'version' must be 1, found '2'");
-  EXPECT_CONTAINS(text, "p.yaml:2:1: unknown key 'missons' in the pipeline; did you mean 'missions'?");
+  EXPECT_CONTAINS(text,
+                  "p.yaml:2:1: unknown key 'missons' in the pipeline; did you mean 'missions'?");
   EXPECT_CONTAINS(text, "p.yaml:4:5: a step must open with a verb");
   EXPECT_CONTAINS(text, "did you mean 'optimize'?");
   EXPECT_CONTAINS(text, "p.yaml:6:5: unknown parameter 'pair'; did you mean 'pairs'?");
@@ -100,8 +111,10 @@ TEST_F(PipelineFile, WiringIsCheckedBeforeAnythingRuns) {
   EXPECT_CONTAINS(mistakes(head + "  - recognize: sc\n    payload: coarse\n"),
                   "no earlier filter writes the payload stream 'coarse'");
   EXPECT_CONTAINS(mistakes(head + "  - export: cloud\n  - export: cloud\n"), "give one of them");
-  EXPECT_EQ(mistakes(head + "  - filter: v\n    as: coarse\n  - recognize: sc\n    payload: coarse\n"
-                            "  - register: g\n  - verify: p\n  - optimize: c\n"), "");
+  EXPECT_EQ(
+      mistakes(head + "  - filter: v\n    as: coarse\n  - recognize: sc\n    payload: coarse\n"
+                      "  - register: g\n  - verify: p\n  - optimize: c\n"),
+      "");
 }
 
 TEST_F(PipelineFile, OverridesReachTheNamedSteps) {
@@ -119,8 +132,9 @@ TEST_F(PipelineFile, OverridesReachTheNamedSteps) {
 }
 
 TEST_F(PipelineFile, ExtendsReplacesListsAndMergesTheRest) {
-  write_file(folder / "base.yaml", "version: 1\nseed: 3\nmissions: [m]\nsteps: [{optimize: a}]\n"
-                                   "set: {optimize.x: 1, optimize.y: 2}\n");
+  write_file(folder / "base.yaml",
+             "version: 1\nseed: 3\nmissions: [m]\nsteps: [{optimize: a}]\n"
+             "set: {optimize.x: 1, optimize.y: 2}\n");
   const Pipeline p = load("version: 1\nextends: base.yaml\nset: {optimize.x: 5}\n");
   EXPECT_EQ(p.seed, 3u);
   ASSERT_EQ(p.steps.size(), 1u);

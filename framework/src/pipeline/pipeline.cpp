@@ -28,7 +28,7 @@ class Parser {
                        "expected a map with 'version' and 'steps', found " + doc.shown());
       return {};
     }
-    make_paths_absolute(doc, file.parent_path());
+    make_paths_absolute(doc, fs::absolute(file).parent_path());
     const Yaml* base = doc.find("extends");
     if (!base) return doc;
     if (!base->is_scalar() || depth > 8) {
@@ -69,7 +69,7 @@ class Parser {
  private:
   static void make_paths_absolute(Yaml& doc, const fs::path& folder) {
     const auto fix = [&](Yaml& y) {
-      if (y.is_scalar()) y.scalar = (fs::absolute(folder) / y.scalar).lexically_normal().string();
+      if (y.is_scalar()) y.scalar = (folder / y.scalar).lexically_normal().string();
     };
     for (auto& item : doc.map) {
       if (item.key.scalar != "missions") continue;
