@@ -23,9 +23,9 @@ class IcpPointToPlane final : public CoarseToFine {
     pcl::IterativeClosestPointWithNormals<Point, Point> icp;
     icp.setUseSymmetricObjective(symmetric_);
     icp.setSearchMethodTarget(target.surface.tree, true);
-    icp.setSearchMethodSource(source.surface.tree, true);
+    icp.setSearchMethodSource(source.surface.tree, true);  // not used, and so not built
     icp.setInputTarget(target.surface.points);
-    icp.setInputSource(source.surface.points);
+    icp.setInputSource(source.sample);
     icp.setMaxCorrespondenceDistance(stage.max_correspondence_distance);
     icp.setMaximumIterations(stage.max_iterations);
     // PCL compares the squared step, and the cosine of the angle.

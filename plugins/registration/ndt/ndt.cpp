@@ -15,7 +15,8 @@ class Ndt final : public CoarseToFine {
   void params(ParamVisitor& v) override {
     CoarseToFine::params(v);
     v("cell_points", cell_points_,
-      "Cell of the distributions as a multiple of the cloud's voxel: about this squared points each",
+      "Cell of the distributions as a multiple of the cloud's voxel: about this squared points "
+      "each",
       between(2.0, 50.0));
     v("step_size", step_size_, "Longest step of one iteration, in cells of the distributions",
       between(0.01, 10.0));
@@ -38,7 +39,7 @@ class Ndt final : public CoarseToFine {
   std::optional<SE3> refine(const Level& target, const Level& source, const SE3& guess,
                             const Stage& stage) const override {
     Pcl ndt = *std::static_pointer_cast<const Pcl>(target.extra);
-    ndt.setInputSource(source.surface.points);
+    ndt.setInputSource(source.sample);
     ndt.setMaximumIterations(stage.max_iterations);
     ndt.setOulierRatio(outlier_ratio_);  // PCL's spelling
     ndt.setStepSize(step_size_ * cell_points_ * stage.voxel_size);
