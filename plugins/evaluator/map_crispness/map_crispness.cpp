@@ -79,6 +79,8 @@ class MapCrispness final : public Evaluator {
       at_least(0, "s"));
   }
 
+  bool needs_truth() const override { return false; }
+
   std::vector<Metric> evaluate(const Atlas& atlas, const std::filesystem::path& reference,
                                const Context& context) const override {
     const Truth truth = read_truth(atlas, reference, max_time_difference_);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "cambium/context.hpp"
 #include "cambium/truth.hpp"
 
 namespace map_crispness {
