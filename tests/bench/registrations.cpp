@@ -11,14 +11,15 @@
 #include <random>
 
 #include "bench/registration_data.hpp"
-#include "cambium/statistics.hpp"
+#include "bench/registration_tally.hpp"
 #include "support/support.hpp"
 
 namespace {
 
 using namespace cambium;
+using bench::degree;
 using bench::Scan;
-constexpr double degree = M_PI / 180;
+using bench::Tally;
 
 // Of this thread: other programs on the machine do not count.
 double cpu_milliseconds() {
@@ -27,13 +28,13 @@ double cpu_milliseconds() {
   return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
 }
 
-struct Prepared2 {
+struct PreparedScans {
   std::vector<Prepared> clouds;
   double milliseconds = 0;  ///< median
 };
 
-Prepared2 prepare(const Registration& method, const std::vector<Scan>& scans) {
-  Prepared2 out;
+PreparedScans prepare(const Registration& method, const std::vector<Scan>& scans) {
+  PreparedScans out;
   std::vector<double> times;
   for (const Scan& scan : scans) {
     const double start = cpu_milliseconds();
@@ -43,32 +44,6 @@ Prepared2 prepare(const Registration& method, const std::vector<Scan>& scans) {
   out.milliseconds = median(times);
   return out;
 }
-
-/// The pairs of one line of the table.
-struct Tally {
-  int pairs = 0, correct = 0, accepted = 0, wrong = 0;
-  std::vector<double> milliseconds, translation, rotation;
-
-  void add(const Alignment& a, const SE3& truth, double ms) {
-    const SE3 error = truth.inverse() * a.T_target_source;
-    const bool good = error.t.norm() < 0.5 && rotation_angle(error) < 5 * degree;
-    ++pairs;
-    correct += good;
-    accepted += a.converged && good;
-    wrong += a.converged && !good;
-    milliseconds.push_back(ms);
-    if (!good) return;
-    translation.push_back(error.t.norm());
-    rotation.push_back(rotation_angle(error) / degree);
-  }
-  void print(const std::string& label) const {
-    if (pairs == 0) return;
-    std::printf("| %-34s | %4d | %5.1f | %5.1f | %3d | %5.3f | %4.2f | %4.0f |\n", label.c_str(),
-                pairs, 100.0 * correct / pairs, 100.0 * accepted / pairs, wrong,
-                median(translation), median(rotation), median(milliseconds));
-    std::fflush(stdout);
-  }
-};
 
 /// Where the registration starts from; uniform in -1..1 by `random`, which is the same everywhere.
 struct Start {
@@ -99,7 +74,7 @@ SE3 guess_for(const Start& start, const SE3& truth, std::mt19937_64& random) {
 void between_missions(const Registration& method, const Start& start) {
   const std::vector<Scan> a = bench::newer_college("mission_a"),
                           b = bench::newer_college("mission_b");
-  const Prepared2 pa = prepare(method, a), pb = prepare(method, b);
+  const PreparedScans pa = prepare(method, a), pb = prepare(method, b);
   constexpr std::array limits{2.0, 5.0, 10.0, 15.0};
   std::array<Tally, limits.size()> tallies;
   std::mt19937_64 random(7);
@@ -123,7 +98,7 @@ void between_missions(const Registration& method, const Start& start) {
 /// Scans `step` apart along one path, from the identity.
 void along_path(const Registration& method, const std::string& name, const std::vector<Scan>& scans,
                 std::size_t step) {
-  const Prepared2 prepared = prepare(method, scans);
+  const PreparedScans prepared = prepare(method, scans);
   Tally tally;
   const auto context = testing::make_context();
   for (std::size_t i = 0; i + step < scans.size(); i += step) {

@@ -45,6 +45,8 @@ class CoarseToFine : public Registration {
                   const Context& context) const override;
 
  protected:
+  /// For methods that pair points: params() of such a method calls this too.
+  void correspondence_params(ParamVisitor& v);
   /// T_target_source near the guess, or nothing when the optimiser gave up.
   virtual std::optional<SE3> refine(const Level& target, const Level& source, const SE3& guess,
                                     const Stage& stage) const = 0;

@@ -8,10 +8,6 @@ void CoarseToFine::params(ParamVisitor& v) {
   v("coarse_voxel_size", coarse_voxel_size_, "Cell of the cloud that the starts are refined on",
     above(0.0, "m"));
   v("neighbours", neighbours_, "Nearest points that a normal is fitted to", between(4, 200));
-  v("max_correspondence_distance", max_correspondence_distance_,
-    "Points farther apart do not pull on each other, on the fine cloud", above(0.0, "m"));
-  v("coarse_correspondence_distance", coarse_correspondence_distance_,
-    "The same on the coarse cloud: about the error of the best start", above(0.0, "m"));
   v("max_iterations", max_iterations_, "Of the optimiser, per cloud and start", between(1, 10000));
   v("translation_epsilon", translation_epsilon_, "The optimiser stops below this step",
     above(0.0, "m"));
@@ -41,6 +37,13 @@ void CoarseToFine::params(ParamVisitor& v) {
     "The information matrix never claims to know the rotation better", above(0.0, "rad"));
   v("correlation_length", correlation_length_,
     "Residuals of points nearer to each other count as one observation", above(0.0, "m"));
+}
+
+void CoarseToFine::correspondence_params(ParamVisitor& v) {
+  v("max_correspondence_distance", max_correspondence_distance_,
+    "Points farther apart do not pull on each other, on the fine cloud", above(0.0, "m"));
+  v("coarse_correspondence_distance", coarse_correspondence_distance_,
+    "The same on the coarse cloud: about the error of the best start", above(0.0, "m"));
 }
 
 std::string CoarseToFine::check_params() const {

@@ -228,7 +228,7 @@ TEST_P(RegistrationLaws, ThresholdsDecideAndAreNamed) {
 
 TEST_P(RegistrationLaws, ParametersThatContradictEachOtherAreRefused) {
   EXPECT_THROW(make("{voxel_size: 2.0, coarse_voxel_size: 1.0}"), Error);
-  EXPECT_THROW(make("{max_correspondence_distance: 9, coarse_correspondence_distance: 1}"), Error);
+  EXPECT_THROW(make("{neighbours: 60, min_points: 50}"), Error);
 }
 
 }  // namespace cambium::testing

@@ -14,6 +14,7 @@ class Gicp final : public CoarseToFine {
  public:
   void params(ParamVisitor& v) override {
     CoarseToFine::params(v);
+    correspondence_params(v);
     v("plane_thickness", plane_thickness_,
       "Variance across a surface, where that along it is 1; larger is nearer to point-to-point",
       between(1e-6, 1.0));

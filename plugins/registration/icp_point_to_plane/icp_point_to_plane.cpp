@@ -14,6 +14,7 @@ class IcpPointToPlane final : public CoarseToFine {
  public:
   void params(ParamVisitor& v) override {
     CoarseToFine::params(v);
+    correspondence_params(v);
     v("symmetric", symmetric_, "Use the normals of both clouds: a wider basin on curved surfaces");
   }
 

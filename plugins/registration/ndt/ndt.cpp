@@ -2,6 +2,8 @@
 // Normal distributions transform (Magnusson, thesis 2009) on pcl::NormalDistributionsTransform.
 #include <pcl/registration/ndt.h>
 
+#include <cmath>
+
 #include "common/coarse_to_fine.hpp"
 #include "common/pcl.hpp"
 
@@ -43,7 +45,9 @@ class Ndt final : public CoarseToFine {
     ndt.setMaximumIterations(stage.max_iterations);
     ndt.setOulierRatio(outlier_ratio_);  // PCL's spelling
     ndt.setStepSize(step_size_ * cell_points_ * stage.voxel_size);
-    ndt.setTransformationEpsilon(stage.translation_epsilon);
+    // PCL compares the squared step, and the cosine of the angle.
+    ndt.setTransformationEpsilon(stage.translation_epsilon * stage.translation_epsilon);
+    ndt.setTransformationRotationEpsilon(std::cos(stage.rotation_epsilon));
     Points moved;
     ndt.align(moved, to_matrix(guess));
     if (!ndt.hasConverged()) return std::nullopt;
