@@ -2,8 +2,8 @@
 # cambium_add_plugin(NAME SOURCES a.cpp... [LINK lib...] [TEST test.cpp])
 #
 # One shared library that exports one symbol, `cambium_plugin`. The library is named NAME.so. TEST is
-# a GoogleTest file, built where the test support of Cambium is at hand.
-
+# a GoogleTest file, built where the test support of Cambium is at hand. `cmake --install` puts the
+# library where a cambium of the same prefix looks for it (CAMBIUM_PLUGIN_DESTINATION; empty: no rule).
 function(cambium_add_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK;TEST")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
@@ -22,8 +22,8 @@ function(cambium_add_plugin name)
   if(CAMBIUM_PLUGIN_OUTPUT)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CAMBIUM_PLUGIN_OUTPUT})
   endif()
-  if(CAMBIUM_PLUGIN_SUBDIR)
-    install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/${CAMBIUM_PLUGIN_SUBDIR})
+  if(CAMBIUM_PLUGIN_DESTINATION)
+    install(TARGETS ${name} LIBRARY DESTINATION ${CAMBIUM_PLUGIN_DESTINATION})
   endif()
   if(arg_TEST AND TARGET cambium_test_support)
     add_executable(test_${name} ${arg_TEST})

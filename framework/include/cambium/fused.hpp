@@ -19,11 +19,10 @@ SE3 T_map_mission(const MissionState& state);
 std::optional<GeoReference> georeference(const Atlas& atlas, const Island& island);
 
 /// The island as one graph: nodes at their poses in the map with ids + id_offset, the edges of all
-/// missions, and the accepted loops. Priors are moved into the map frame. FIX stays where it
-/// anchors the island, in its first mission. What would be ambiguous in a joint file becomes a
-/// comment that names the mission: platform ids, the missions' own GNSS lines, further FIX lines,
-/// unknown lines, and the weight of loops that the last optimisation doubted. Throws Error(data)
-/// when two missions share an id.
+/// missions, and the accepted loops. What a joint file cannot say becomes a comment that names the
+/// mission: platform ids, own GNSS lines, unknown lines; FIX lines and priors of all missions but
+/// the first, whose frame is the map frame; weights of loops that the last optimisation doubted.
+/// Throws Error(data) when two missions share an id.
 Mission fused_mission(const Atlas& atlas, const Island& island);
 
 /// Stamped poses in the map frame, in order of the nodes. Nodes without a stamp have no row.

@@ -20,10 +20,13 @@ struct Truth {
   void require_matches() const;  ///< throws Error(data) when no node has a true pose
 };
 
-/// Reads `<reference>/<mission>.tum`, else `<reference>/<mission>/ground_truth.tum`; with an empty
-/// `reference`, `ground_truth.tum` in each mission's folder. A node takes the pose whose stamp is
-/// nearest, at most `max_time_difference` [s] away. Throws Error(data) on a malformed file; a
-/// mission without a file has no true poses.
+/// Where the truth of a mission is looked for: `<reference>/<mission>/ground_truth.tum` if it
+/// exists, else `<reference>/<mission>.tum`; with an empty `reference`, `ground_truth.tum` in its
+/// folder.
+std::filesystem::path truth_file(const Mission& mission, const std::filesystem::path& reference);
+
+/// A node takes the pose whose stamp is nearest, at most `max_time_difference` [s] away. A mission
+/// without a file has no true poses. Throws Error(data) on a malformed file.
 Truth read_truth(const Atlas& atlas, const std::filesystem::path& reference,
                  double max_time_difference);
 

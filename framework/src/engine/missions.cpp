@@ -69,6 +69,25 @@ void assign_offsets(std::vector<MissionState>& missions) {
   }
 }
 
+// What the engine relies on; a reader that breaks it is named before anything goes wrong.
+void check_mission(const Mission& m, const Source& source) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorCode::data, source.path.string(), what);
+  };
+  if (m.nodes.empty()) refuse("the mission has no nodes");
+  for (std::size_t i = 0; i < m.nodes.size(); ++i) {
+    if (i > 0 && m.nodes[i].id <= m.nodes[i - 1].id)
+      refuse(fmt::format("the reader gave node {} after node {}; expected ascending ids",
+                         m.nodes[i].id, m.nodes[i - 1].id));
+    if (!m.nodes[i].T_mission_node.finite())
+      refuse(fmt::format("the pose of node {} is not finite", m.nodes[i].id));
+  }
+  for (const Edge& e : m.edges)
+    if (!m.index_of(e.tail) || !m.index_of(e.head))
+      refuse(fmt::format("the edge {}-{} (line {}) names a node that is not there", e.tail, e.head,
+                         e.line));
+}
+
 void check_names(const std::vector<Mission>& missions) {
   for (std::size_t i = 1; i < missions.size(); ++i) {
     const Mission &a = missions[i - 1], &b = missions[i];
@@ -121,13 +140,13 @@ Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const En
                 "no missions; name them under 'missions:' or on the command line");
 
   std::vector<Mission> missions(sources.size());
-  engine.progress().begin("read missions", sources.size());
+  engine.progress().begin("read missions");
+  engine.progress().expect(sources.size());
   engine.parallel_for(sources.size(), [&](std::size_t i) {
     const auto context = engine.context(digest_bytes(sources[i].path.string()), pipeline.seed);
     missions[i] = sources[i].reader.as<MissionReader>().read(sources[i].path, *context);
     if (!sources[i].spec.name.empty()) missions[i].name = sources[i].spec.name;
-    if (missions[i].nodes.empty())
-      throw Error(ErrorCode::data, missions[i].graph_file.string(), "the mission has no nodes");
+    check_mission(missions[i], sources[i]);
     engine.progress().advance();
   });
   std::stable_sort(missions.begin(), missions.end(),

@@ -30,16 +30,16 @@ std::string duration(double seconds) {
   return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
 }
 
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 void print(const std::string& text) { fmt::print(stderr, "{}", text); }
 
 }  // namespace
 
 Progress::Progress(Style style, LogLevel level)
     : style_(style), level_(level), terminal_(style == Style::automatic && isatty(2) != 0) {}
-
-double Progress::elapsed() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
 
 void Progress::log(LogLevel level, std::string_view message) {
   const std::lock_guard lock(mutex_);
@@ -56,12 +56,18 @@ void Progress::log(LogLevel level, std::string_view message) {
                                 : fmt::format("{}: {}\n", name(level), message));
 }
 
-void Progress::begin(const std::string& step, std::size_t total) {
+void Progress::begin(const std::string& step) {
   const std::lock_guard lock(mutex_);
   step_ = step;
-  total_ = total;
+  total_ = done_ = 0;
+  begin_ = row_ = drawn_ = std::chrono::steady_clock::now();
+}
+
+void Progress::expect(std::size_t items) {
+  const std::lock_guard lock(mutex_);
+  total_ = items;
   done_ = 0;
-  begin_ = drawn_ = std::chrono::steady_clock::now();
+  row_ = std::chrono::steady_clock::now();
 }
 
 void Progress::advance() {
@@ -74,12 +80,11 @@ void Progress::end(const std::string& summary) {
   const std::lock_guard lock(mutex_);
   clear_bar();
   if (style_ == Style::json)
-    print(nlohmann::json{
-              {"step", step_}, {"items", done_}, {"seconds", elapsed()}, {"summary", summary}}
+    print(nlohmann::json{{"step", step_}, {"seconds", seconds_since(begin_)}, {"summary", summary}}
               .dump() +
           "\n");
   else if (style_ != Style::quiet)
-    print(fmt::format("{:<36} {:>6.2f} s  {}\n", step_, elapsed(), summary));
+    print(fmt::format("{:<36} {:>6.2f} s  {}\n", step_, seconds_since(begin_), summary));
 }
 
 std::vector<std::string> Progress::warnings() const {
@@ -92,7 +97,7 @@ void Progress::draw() {
   const double pause = terminal_ ? 0.1 : 10.0;  // plain logs get a line every ten seconds
   if (std::chrono::duration<double>(now - drawn_).count() < pause) return;
   drawn_ = now;
-  const double seconds = elapsed(), rate = double(done_) / std::max(seconds, 1e-9);
+  const double seconds = seconds_since(row_), rate = double(done_) / std::max(seconds, 1e-9);
   const double eta = double(total_ - done_) / std::max(rate, 1e-9);
   if (style_ == Style::json) {
     print(nlohmann::json{{"step", step_}, {"done", done_}, {"total", total_}, {"eta", eta}}.dump() +

@@ -17,15 +17,15 @@ class Progress {
   explicit Progress(Style style, LogLevel level = LogLevel::info);
 
   void log(LogLevel level, std::string_view message);
-  void begin(const std::string& step, std::size_t total);  ///< of work items
-  void advance();                                          ///< one item more; thread-safe
+  void begin(const std::string& step);  ///< the clock of the step starts
+  void expect(std::size_t items);       ///< a row of work items begins; a step may have several
+  void advance();                       ///< one item more; thread-safe
   void end(const std::string& summary);
   std::vector<std::string> warnings() const;  ///< all so far, for the report
 
  private:
   void draw();
   void clear_bar();
-  double elapsed() const;
 
   Style style_;
   LogLevel level_;
@@ -34,7 +34,7 @@ class Progress {
   std::vector<std::string> warnings_;
   std::string step_;
   std::size_t total_ = 0, done_ = 0;
-  std::chrono::steady_clock::time_point begin_, drawn_;
+  std::chrono::steady_clock::time_point begin_, row_, drawn_;
   bool bar_shown_ = false;
 };
 

@@ -96,9 +96,10 @@ Json loop_json(const Atlas& atlas, const Loop& l) {
            {"decided_by", l.decided_by},
            {"reason", l.reason},
            {"scores", scores_json(l.scores)}};
-  if (l.state != LoopState::accepted) return out;
   const auto& T = l.T_tail_head;
-  out["T_tail_head"] = {T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w()};
+  if (!l.registered_by.empty() && l.decided_by != l.registered_by)  // the registration converged
+    out["T_tail_head"] = {T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w()};
+  if (l.state != LoopState::accepted) return out;
   out["weight"] = l.weight;
   out["residual"] = {{"translation", l.residual.head<3>().norm()},
                      {"rotation", l.residual.tail<3>().norm()}};

@@ -50,7 +50,7 @@ StepRecord run_step(const Step& step, Known& known, const Engine& engine, std::u
   known.atlas.payloads = known.streams.at(step.keys.payload);
   record.key = key_parts(step, known, engine, seed);
   const auto begin = std::chrono::steady_clock::now();
-  engine.progress().begin(step.title(), 1);
+  engine.progress().begin(step.title());
   known = step_function(step.verb->kind)(std::move(known), {step, engine, seed, out, record});
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (record.items > 0 && record.cached == record.items) record.summary += " (cached)";

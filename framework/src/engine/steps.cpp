@@ -4,7 +4,7 @@
 namespace cambium {
 
 void StepScope::run_items(std::size_t count, const std::function<bool(std::size_t)>& item) const {
-  engine.progress().begin(step.title(), count);
+  engine.progress().expect(count);
   std::atomic<std::size_t> cached{0};
   engine.parallel_for(count, [&](std::size_t i) {
     if (item(i)) ++cached;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "cambium/dialect.hpp"
 #include "cambium/error.hpp"
@@ -11,11 +12,13 @@
 namespace cambium {
 namespace {
 
-std::string pose_fields(const SE3& T) {
-  std::string out;
-  for (int i = 0; i < 3; ++i) out += ' ' + format_number(T.t[i]);
-  for (int i = 0; i < 4; ++i) out += ' ' + format_number(T.q.coeffs()[i]);  // x y z w
-  return out;
+/// The lines that the dialect has for what `part` holds.
+std::vector<std::string> lines_of(const Mission& part) {
+  std::stringstream text;
+  write_g2o(text, part);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
 }
 
 /// Builds the joint graph, one mission after another.
@@ -24,13 +27,26 @@ class Fusion {
   explicit Fusion(const Atlas& atlas) : atlas_(atlas) {}
 
   void add_mission(const MissionState& state) {
+    const Mission& mission = *state.mission;
+    // The map frame is that of the island's first mission, so only its priors and FIX lines hold.
     const bool anchors = fused_.nodes.empty();
-    describe(state);
-    add_nodes(state, anchors);
-    for (Edge edge : state.mission->edges) add_edge(state, std::move(edge));
-    for (const RawLine& raw : state.mission->unknown_lines) {
-      const std::size_t text = raw.text.find_first_not_of("# ");
-      if (text != std::string::npos) comment(state.mission->name + ": " + raw.text.substr(text));
+    comment(fmt::format("MISSION {} PLATFORM_ID {} ID_OFFSET {} NODES {}", mission.name,
+                        mission.platform_id, state.id_offset, mission.nodes.size()));
+    Mission remarks;
+    remarks.unknown_lines = mission.unknown_lines;
+    remarks.georeference = mission.georeference;
+    add_nodes(state, anchors, remarks);
+    for (Edge edge : mission.edges) {
+      edge.tail += state.id_offset;
+      edge.head += state.id_offset;
+      // Its PARAMS_SE3OFFSET line becomes a comment; the model's pose is that of the base already.
+      if (edge.tag == "EDGE_SE3_PRIOR") edge.tag.clear();
+      const bool unary = edge.kind == EdgeKind::prior || edge.kind == EdgeKind::position;
+      (unary && !anchors ? remarks : fused_).edges.push_back(std::move(edge));
+    }
+    for (const std::string& line : lines_of(remarks)) {
+      const std::size_t text = line.find_first_not_of("# ");
+      if (text != std::string::npos) comment(mission.name + ": " + line.substr(text));
     }
   }
 
@@ -75,48 +91,17 @@ class Fusion {
 
   NodeId id(NodeRef n) const { return atlas_.node(n).id + atlas_.missions[n.mission].id_offset; }
 
-  void describe(const MissionState& state) {
-    const Mission& mission = *state.mission;
-    comment(fmt::format("MISSION {} PLATFORM_ID {} ID_OFFSET {} NODES {}", mission.name,
-                        mission.platform_id, state.id_offset, mission.nodes.size()));
-    if (!mission.georeference) return;
-    const GeoReference& g = *mission.georeference;
-    comment(fmt::format("{}: GNSS_LLA_REF {} {} {}", mission.name, format_number(g.latitude),
-                        format_number(g.longitude), format_number(g.altitude)));
-    comment(mission.name + ": GNSS_LLA_TO_MAP" + pose_fields(g.T_map_enu));
-  }
-
-  void add_nodes(const MissionState& state, bool anchors) {
+  void add_nodes(const MissionState& state, bool anchors, Mission& remarks) {
     for (std::size_t i = 0; i < state.mission->nodes.size(); ++i) {
       Node node = state.mission->nodes[i];
-      if (node.fixed && !anchors) {
-        comment(fmt::format("{}: FIX {}", state.mission->name, node.id + state.id_offset));
-        node.fixed = false;
-      }
       node.id += state.id_offset;
       node.T_mission_node = (*state.T_map_node)[i];
-      node.line = 0;
+      if (node.fixed && !anchors) {
+        remarks.unknown_lines.push_back({0, fmt::format("FIX {}", node.id)});
+        node.fixed = false;
+      }
       fused_.nodes.push_back(std::move(node));
     }
-  }
-
-  void add_edge(const MissionState& state, Edge edge) {
-    edge.tail += state.id_offset;
-    edge.head += state.id_offset;
-    edge.line = 0;
-    if (edge.kind == EdgeKind::prior || edge.kind == EdgeKind::position) {
-      const SE3 T = T_map_mission(state);
-      const Mat3 R = T.rotation();
-      edge.T_tail_head = T * edge.T_tail_head;
-      // The position error is expressed in the frame of the prior, and turns with it; the rotation
-      // error is expressed at the node, and does not.
-      Mat6 J = Mat6::Identity();
-      J.topLeftCorner<3, 3>() = R;
-      edge.information = J * edge.information.eval() * J.transpose();
-      edge.tag.clear();  // an unary edge of our own: the offsets of EDGE_SE3_PRIOR are per file
-      edge.extra.clear();
-    }
-    fused_.edges.push_back(std::move(edge));
   }
 
   const Atlas& atlas_;

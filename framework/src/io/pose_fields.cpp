@@ -13,14 +13,15 @@ namespace {
 // Text with 6 digits is off by up to 2e-6 (seen in public graphs); 1e-5 costs 0.01 mm a metre.
 constexpr double norm_tolerance = 1e-5;
 
-bool indefinite(const Mat6& information) {
-  const Eigen::Matrix<double, 6, 6> A = information;
-  if (A.llt().info() == Eigen::Success) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(A, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()(0) < -1e-9 * eigen.eigenvalues().cwiseAbs().maxCoeff();
-}
-
 }  // namespace
+
+Definiteness definiteness(const Mat6& symmetric) {
+  const Eigen::Matrix<double, 6, 6> A = symmetric;
+  if (A.llt().info() == Eigen::Success) return Definiteness::positive;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(A, Eigen::EigenvaluesOnly);
+  const double rounding = 1e-9 * eigen.eigenvalues().cwiseAbs().maxCoeff();
+  return eigen.eigenvalues()(0) < -rounding ? Definiteness::indefinite : Definiteness::semidefinite;
+}
 
 SE3 read_pose(Fields& fields, Warnings& warnings) {
   double v[7];
@@ -41,7 +42,7 @@ Mat6 read_information(const double* upper, int line, Warnings& warnings) {
   Mat6 information;
   for (int row = 0; row < 6; ++row)
     for (int col = row; col < 6; ++col) information(row, col) = information(col, row) = *upper++;
-  if (indefinite(information))
+  if (definiteness(information) == Definiteness::indefinite)
     warnings.add(line,
                  "the information matrix is indefinite (it has a negative eigenvalue); "
                  "solvers use its nearest positive semidefinite matrix");

@@ -11,6 +11,9 @@ namespace cambium {
 /// keeps its digits, so that it is written back as it came; another is normalised with a warning.
 SE3 read_pose(Fields& fields, Warnings& warnings);
 
+enum class Definiteness { positive, semidefinite, indefinite };
+Definiteness definiteness(const Mat6& symmetric);
+
 /// The 21 numbers of the upper triangle, row by row; warns when the matrix is indefinite.
 Mat6 read_information(const double* upper, int line, Warnings& warnings);
 

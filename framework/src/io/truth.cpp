@@ -12,13 +12,6 @@
 namespace cambium {
 namespace {
 
-std::filesystem::path truth_file(const Mission& mission, const std::filesystem::path& reference) {
-  if (reference.empty()) return mission.folder / "ground_truth.tum";
-  const auto in_folder = reference / mission.name / "ground_truth.tum";
-  if (std::filesystem::exists(in_folder)) return in_folder;
-  return reference / (mission.name + ".tum");
-}
-
 double seconds_between(const Stamp& a, const Stamp& b) {
   return double(b.sec - a.sec) + 1e-9 * (b.nsec - a.nsec);
 }
@@ -42,6 +35,13 @@ std::optional<SE3> nearest(const std::vector<StampedPose>& poses, const Stamp& s
 }
 
 }  // namespace
+
+std::filesystem::path truth_file(const Mission& mission, const std::filesystem::path& reference) {
+  if (reference.empty()) return mission.folder / "ground_truth.tum";
+  const auto in_folder = reference / mission.name / "ground_truth.tum";
+  if (std::filesystem::exists(in_folder)) return in_folder;
+  return reference / (mission.name + ".tum");
+}
 
 void Truth::require_matches() const {
   if (matched > 0) return;

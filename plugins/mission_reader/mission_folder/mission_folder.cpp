@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* graph_names[] = {"slam_pose_graph.g2o", "slam_pose_graph.slam"};
+
 class MissionFolder final : public MissionReader {
  public:
   void params(ParamVisitor& v) override {
@@ -25,6 +27,13 @@ class MissionFolder final : public MissionReader {
     v("tree_folder", tree_folder_, "Sub-folder with one tree table a node");
     v("apply_viewpoint", apply_viewpoint_, "Move the points of a cloud by its file's VIEWPOINT");
     v("check_payloads", check_payloads_, "Open every payload once and warn of what is wrong");
+  }
+
+  bool accepts(const fs::path& path) const override {
+    if (is_graph(path)) return true;
+    for (const char* name : graph_names)
+      if (fs::exists(path / name)) return true;
+    return false;
   }
 
   Mission read(const fs::path& path, const Context& context) const override {
@@ -36,7 +45,7 @@ class MissionFolder final : public MissionReader {
                                               : "does not exist, expected a mission folder or a "
                                                 "pose graph (.g2o)");
     if (fs::is_directory(status)) return read_folder(path, context);
-    if (path.extension() != ".g2o" && path.extension() != ".slam")
+    if (!is_graph(path))
       throw Error(ErrorCode::data, path.string(),
                   "is a file, expected a mission folder or a pose graph (.g2o or .slam)");
     return read_g2o(path);
@@ -55,8 +64,12 @@ class MissionFolder final : public MissionReader {
     return mission;
   }
 
+  static bool is_graph(const fs::path& path) {
+    return path.extension() == ".g2o" || path.extension() == ".slam";
+  }
+
   static fs::path graph_in(const fs::path& folder) {
-    for (const char* name : {"slam_pose_graph.g2o", "slam_pose_graph.slam"})
+    for (const char* name : graph_names)
       if (fs::exists(folder / name)) return folder / name;
     throw Error(
         ErrorCode::data, folder.string(),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "cambium/plugin.hpp"
 
@@ -14,10 +15,9 @@ using namespace cambium;
 /// What is kept of a node, in Fingerprints::extra: positions need doubles.
 struct Place {
   SE3 T_map_node;
-  double path = 0;  ///< travelled since the start of the mission [m]
   std::uint64_t island = 0;
 };
-static_assert(sizeof(Place) == 9 * sizeof(double), "no padding: the bytes are hashed");
+static_assert(sizeof(Place) == 8 * sizeof(double), "no padding: the bytes are hashed");
 
 std::vector<Place> places(const Fingerprints& fingerprints) {
   std::vector<Place> out(fingerprints.rows);
@@ -26,6 +26,8 @@ std::vector<Place> places(const Fingerprints& fingerprints) {
                 fingerprints.extra.size());
   return out;
 }
+
+class SortedByX;
 
 class Proximity final : public PlaceRecognizer {
  public:
@@ -38,6 +40,8 @@ class Proximity final : public PlaceRecognizer {
       above(0.0, "m"));
     v("candidates", candidates_, "At most so many proposals for a query, the nearest",
       between(1, 10000));
+    v("flat_guess", flat_guess_,
+      "The guess keeps the horizontal offset and the heading; height and tilt are taken as equal");
   }
 
   bool uses_poses() const override { return true; }
@@ -46,13 +50,8 @@ class Proximity final : public PlaceRecognizer {
   Fingerprints describe(const MissionView& mission, const Context&) const override {
     Fingerprints out{mission.size(), 0, {}, {}};
     std::vector<Place> rows(mission.size());
-    double path = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto& nodes = mission.mission().nodes;
-      // The robot's own estimate: the path's length must not change with loop closures.
-      if (i > 0) path += (nodes[i].T_mission_node.t - nodes[i - 1].T_mission_node.t).norm();
-      rows[i] = {mission.T_map_node(i), path, mission.island()};
-    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] = {mission.T_map_node(i), mission.island()};
     const auto bytes = std::as_bytes(std::span(rows));
     out.extra.assign(bytes.begin(), bytes.end());
     return out;
@@ -62,22 +61,30 @@ class Proximity final : public PlaceRecognizer {
                                const Pairing& pairing, const Context& context) const override;
 
  private:
-  double limit(const Place& query, const Place& reference, const Pairing& pairing) const {
-    const double travelled = std::abs(query.path - reference.path);
-    return radius_ + (pairing.within_mission ? radius_growth_ * travelled : 0.0);
+  /// Horizontal; wider where more drift has gathered between the two nodes.
+  double limit(std::size_t query, std::size_t reference, const Pairing& pairing) const {
+    if (!pairing.within_mission) return radius_;
+    return radius_ +
+           radius_growth_ * std::abs(pairing.query_path[query] - pairing.reference_path[reference]);
   }
+
+  SE3 guess(const Place& query, const Place& reference) const;
+  std::vector<Candidate> nearest(std::size_t q, const std::vector<Place>& from,
+                                 const std::vector<Place>& to, const SortedByX& by_x,
+                                 const Pairing& pairing) const;
 
   double radius_ = 10.0;
   double radius_growth_ = 0.0;
   double max_height_difference_ = 10.0;
   int candidates_ = 5;
+  bool flat_guess_ = false;
 };
 
 /// References in order of x: all that can be near a query are neighbours in this order.
 class SortedByX {
  public:
   explicit SortedByX(const std::vector<Place>& places) : places_(places), order_(places.size()) {
-    for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
+    std::iota(order_.begin(), order_.end(), std::size_t(0));
     std::sort(order_.begin(), order_.end(),
               [&](std::size_t a, std::size_t b) { return x(a) != x(b) ? x(a) < x(b) : a < b; });
   }
@@ -97,33 +104,46 @@ class SortedByX {
   std::vector<std::size_t> order_;
 };
 
+SE3 heading_only(const SE3& T) { return SE3::from_yaw(T.yaw(), {T.t.x(), T.t.y(), 0.0}); }
+
+SE3 Proximity::guess(const Place& query, const Place& reference) const {
+  if (!flat_guess_) return reference.T_map_node.inverse() * query.T_map_node;
+  return heading_only(reference.T_map_node).inverse() * heading_only(query.T_map_node);
+}
+
+std::vector<Candidate> Proximity::nearest(std::size_t q, const std::vector<Place>& from,
+                                          const std::vector<Place>& to, const SortedByX& by_x,
+                                          const Pairing& pairing) const {
+  // The path grows with the node, so the largest radius belongs to the first or the last one.
+  const double widest = std::max(limit(q, 0, pairing), limit(q, to.size() - 1, pairing));
+  const double x = from[q].T_map_node.t.x();
+  std::vector<Candidate> out;
+  for (const std::size_t r : by_x.within(x - widest, x + widest)) {
+    const Vec3 offset = to[r].T_map_node.t - from[q].T_map_node.t;
+    if (offset.head<2>().norm() > limit(q, r, pairing)) continue;
+    if (std::abs(offset.z()) > max_height_difference_ || !pairing.allowed(q, r)) continue;
+    out.push_back({q, r, -offset.norm(), guess(from[q], to[r])});
+  }
+  std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
+    return a.score != b.score ? a.score > b.score : a.reference < b.reference;
+  });
+  if (out.size() > std::size_t(candidates_)) out.resize(std::size_t(candidates_));
+  return out;
+}
+
 std::vector<Candidate> Proximity::match(const Fingerprints& query, const Fingerprints& reference,
                                         const Pairing& pairing, const Context& context) const {
   const std::vector<Place> from = places(query), to = places(reference);
   // Other islands have their own map frame: there, distances mean nothing.
   if (from.empty() || to.empty() || from.front().island != to.front().island) return {};
-  const SortedByX index(to);
-  std::vector<std::vector<Candidate>> nearest(from.size());
+  const SortedByX by_x(to);
+  std::vector<std::vector<Candidate>> of_query(from.size());
   context.parallel_for(from.size(), [&](std::size_t q) {
     context.check_cancelled();
-    const Place& a = from[q];
-    const double widest = std::max(limit(a, to.front(), pairing), limit(a, to.back(), pairing));
-    const double x = a.T_map_node.t.x();
-    for (const std::size_t r : index.within(x - widest, x + widest)) {
-      const Vec3 d = to[r].T_map_node.t - a.T_map_node.t;
-      const double distance = d.head<2>().norm();
-      if (distance > limit(a, to[r], pairing) || std::abs(d.z()) > max_height_difference_ ||
-          !pairing.allowed(q, r))
-        continue;
-      nearest[q].push_back({q, r, -d.norm(), to[r].T_map_node.inverse() * a.T_map_node});
-    }
-    std::sort(nearest[q].begin(), nearest[q].end(), [](const Candidate& l, const Candidate& h) {
-      return l.score != h.score ? l.score > h.score : l.reference < h.reference;
-    });
-    if (nearest[q].size() > std::size_t(candidates_)) nearest[q].resize(std::size_t(candidates_));
+    of_query[q] = nearest(q, from, to, by_x, pairing);
   });
   std::vector<Candidate> out;
-  for (const auto& of_query : nearest) out.insert(out.end(), of_query.begin(), of_query.end());
+  for (const auto& found : of_query) out.insert(out.end(), found.begin(), found.end());
   return out;
 }
 

@@ -8,24 +8,20 @@
 namespace scan_context {
 namespace {
 
-// Bins start at 0 = empty, so taking the maximum also discards what is lower than -height_offset.
-void keep_highest(const cambium::Cloud& cloud, const Eigen::Matrix3f& R_level_base,
-                  const Eigen::Vector2f& viewpoint, const Grid& grid, std::span<float> columns) {
-  const auto points = cloud.points();
-  const float rings_per_metre = float(grid.rings / grid.max_range);
-  const float sectors_per_radian = float(grid.sectors / (2.0 * std::numbers::pi));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    Eigen::Vector3f p = R_level_base * points.col(i);
-    p.head<2>() -= viewpoint;
-    if (!p.allFinite()) continue;
-    const float ring = std::hypot(p.x(), p.y()) * rings_per_metre;
-    if (ring >= float(grid.rings)) continue;
-    float azimuth = std::atan2(p.y(), p.x());
-    if (azimuth < 0) azimuth += 2.0f * std::numbers::pi_v<float>;
-    const int sector = std::min(int(azimuth * sectors_per_radian), grid.sectors - 1);
-    float& bin = columns[std::size_t(sector * grid.rings + int(ring))];
-    bin = std::max(bin, p.z() + float(grid.height_offset));
-  }
+/// The azimuth of (x, y) in turns, 0..1. With several viewpoints this is where the time goes, so
+/// the arctangent is a polynomial (Abramowitz, Stegun 1964, 4.4.49): 1e-5 rad, 1 mm at 80 m.
+float turns(float x, float y) {
+  const float ax = std::abs(x), ay = std::abs(y);
+  const float larger = std::max(ax, ay);
+  if (larger == 0.0f) return 0.0f;
+  const float t = std::min(ax, ay) / larger, t2 = t * t;
+  float angle = t * (0.9998660f +
+                     t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));
+  constexpr float pi = std::numbers::pi_v<float>;
+  if (ay > ax) angle = 0.5f * pi - angle;
+  if (x < 0) angle = pi - angle;
+  if (y < 0) angle = 2.0f * pi - angle;
+  return angle / (2.0f * pi);
 }
 
 }  // namespace
@@ -47,10 +43,30 @@ std::vector<Eigen::Vector2f> viewpoints(double radius, double step) {
   return out;
 }
 
-void describe(const cambium::Cloud& cloud, const cambium::Quat& q_level_base, const Grid& grid,
+cambium::Cloud::Matrix3X levelled(const cambium::Cloud& cloud, const cambium::Quat& q_level_base) {
+  const Eigen::Matrix3f R_level_base = q_level_base.toRotationMatrix().cast<float>();
+  const auto points = cloud.points();
+  cambium::Cloud::Matrix3X out(3, points.cols());
+  Eigen::Index n = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points.col(i).allFinite()) out.col(n++).noalias() = R_level_base * points.col(i);
+  out.conservativeResize(Eigen::NoChange, n);
+  return out;
+}
+
+// Bins start at 0 = empty, so taking the maximum also discards what is lower than -height_offset.
+void describe(const cambium::Cloud::Matrix3X& points, const Grid& grid,
               const Eigen::Vector2f& viewpoint, std::span<float> columns) {
   std::fill(columns.begin(), columns.end(), 0.0f);
-  keep_highest(cloud, q_level_base.toRotationMatrix().cast<float>(), viewpoint, grid, columns);
+  const float rings_per_metre = float(grid.rings / grid.max_range);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const float x = points(0, i) - viewpoint.x(), y = points(1, i) - viewpoint.y();
+    const float ring = std::sqrt(x * x + y * y) * rings_per_metre;
+    if (!(ring < float(grid.rings))) continue;
+    const int sector = std::min(int(turns(x, y) * float(grid.sectors)), grid.sectors - 1);
+    float& bin = columns[std::size_t(sector * grid.rings + int(ring))];
+    bin = std::max(bin, points(2, i) + float(grid.height_offset));
+  }
   Eigen::Map<Eigen::MatrixXf> by_sector(columns.data(), grid.rings, grid.sectors);
   for (auto column : by_sector.colwise()) column.stableNormalize();
 }

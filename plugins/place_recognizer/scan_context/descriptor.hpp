@@ -21,15 +21,18 @@ struct Grid {
 /// depend on the heading. T_mission_node's frame has z against gravity.
 cambium::Quat level_rotation(const cambium::SE3& T_mission_node);
 
+/// The finite points of the cloud in the levelled frame.
+cambium::Cloud::Matrix3X levelled(const cambium::Cloud& cloud, const cambium::Quat& q_level_base);
+
 /// Horizontal offsets of viewpoints from the base [m]: a square grid of `step` within `radius`, the
 /// base itself first. A radius below the step gives the base alone.
 std::vector<Eigen::Vector2f> viewpoints(double radius, double step);
 
-/// Writes the descriptor as seen from `viewpoint` (levelled frame) to `columns`: sector by sector,
-/// each column of `rings` heights scaled to unit length, so that the dot product of two columns is
-/// the cosine of the paper's equation (6). A column without points is zero. Points that are not
-/// finite, farther than max_range or lower than -height_offset count as not seen.
-void describe(const cambium::Cloud& cloud, const cambium::Quat& q_level_base, const Grid& grid,
+/// Writes the descriptor of levelled points, as seen from `viewpoint`, to `columns`: sector by
+/// sector, each column of `rings` heights scaled to unit length, so that the dot product of two
+/// columns is the cosine of the paper's equation (6). A column without points is zero. Points
+/// beyond max_range or lower than -height_offset count as not seen.
+void describe(const cambium::Cloud::Matrix3X& points, const Grid& grid,
               const Eigen::Vector2f& viewpoint, std::span<float> columns);
 
 }  // namespace scan_context

@@ -49,15 +49,17 @@ class ScanContext final : public PlaceRecognizer {
       std::copy_n(q_level_base.coeffs().data(), rotation_size, row.last(rotation_size).begin());
       const Payload payload = mission.payload(i);
       if (!payload.cloud) return;  // an empty descriptor matches nothing
+      const Cloud::Matrix3X points = levelled(*payload.cloud, q_level_base);
       for (std::size_t v = 0; v < views.size(); ++v)
-        scan_context::describe(*payload.cloud, q_level_base, grid_, views[v],
-                               row.subspan(v * bins, bins));
+        scan_context::describe(points, grid_, views[v], row.subspan(v * bins, bins));
     });
     return out;
   }
 
   std::vector<Candidate> match(const Fingerprints& query, const Fingerprints& reference,
                                const Pairing& pairing, const Context& context) const override {
+    check_size(query);
+    check_size(reference);
     const auto views = viewpoints(view_radius_, view_step_);
     std::vector<Spectra> queries;
     for (std::size_t v = 0; v < views.size(); ++v)
@@ -81,6 +83,17 @@ class ScanContext final : public PlaceRecognizer {
   static SE3 level_base(const Fingerprints& fingerprints, std::size_t node) {
     const std::span<const float> q = fingerprints.row(node).last(rotation_size);
     return {Quat(q[3], q[0], q[1], q[2]).normalized(), Vec3::Zero()};
+  }
+
+  // A pipeline may give platforms other parameters; their descriptors cannot be compared.
+  void check_size(const Fingerprints& fingerprints) const {
+    const std::size_t expected =
+        viewpoints(view_radius_, view_step_).size() * grid_.bins() + rotation_size;
+    if (fingerprints.cols != expected)
+      throw Error(ErrorCode::config, "scan_context",
+                  "a mission was described with " + std::to_string(fingerprints.cols) +
+                      " numbers a node, expected " + std::to_string(expected) +
+                      "; give rings, sectors and views the same values for all platforms");
   }
 
   Grid grid_;

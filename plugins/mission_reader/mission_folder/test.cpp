@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mission folders through the real loader.
+#include <cmath>
+#include <cstring>
+
+#include "cambium/dialect.hpp"
+#include "cambium/files.hpp"
+#include "support/support.hpp"
+
+namespace cambium {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string pcd_head =
+    "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F "
+    "F\n"
+    "COUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 10 0 0 0 0 0 1\nPOINTS 2\n";
+const std::string ply_head =
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+    "property float z\nend_header\n";
+const std::vector<float> two_points = {1, 2, 3, -4.5, 5, 6};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+template <class T>
+std::string bytes(const std::vector<T>& values) {
+  std::string out(values.size() * sizeof(T), '\0');
+  std::memcpy(out.data(), values.data(), out.size());
+  return out;
+}
+
+/// A mission of two stamped poses whose first cloud is the given file.
+class MissionOnDisk {
+ public:
+  MissionOnDisk() {
+    write_file(path() / "slam_pose_graph.g2o",
+               "PLATFORM_ID 3\nVERTEX_SE3:QUAT_TIME 0 0 0 0 0 0 0 1 10 5\n"
+               "VERTEX_SE3:QUAT_TIME 1 1 0 0 0 0 0 1 11 0\n");
+    fs::create_directories(path() / "individual_clouds");
+  }
+  MissionOnDisk& cloud(const std::string& name, const std::string& content) {
+    write_file(path() / "individual_clouds" / name, content);
+    return *this;
+  }
+  fs::path path() const { return fs::path(folder_.path()); }
+  Mission read(const std::string& params = "{}") const {
+    return testing::component<MissionReader>("mission_folder", params)
+        ->read(path(), *testing::make_context());
+  }
+  Cloud first_cloud(const std::string& params = "{}") const {
+    return *read(params).nodes[0].payload->load().cloud;
+  }
+  std::string refusal() const {
+    try {
+      first_cloud();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::data);
+      return error.what();
+    }
+    return "accepted";
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+Cloud pcd(const std::string& content, const std::string& params = "{}") {
+  return MissionOnDisk().cloud("cloud_10_000000005.pcd", content).first_cloud(params);
+}
+
+Cloud ply(const std::string& content) {
+  return MissionOnDisk().cloud("cloud_10_000000005.ply", content).first_cloud();
+}
+
+bool contains(const std::vector<std::string>& warnings, const std::string& part) {
+  for (const auto& warning : warnings)
+    if (warning.find(part) != warning.npos) return true;
+  return false;
+}
+
+TEST(MissionFolder, GraphPayloadsAndNames) {
+  MissionOnDisk disk;
+  disk.cloud("cloud_10_000000005.pcd", pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n");
+  const Mission m = disk.read();
+  EXPECT_EQ(m.name, disk.path().filename().string());
+  EXPECT_EQ(m.folder, disk.path());
+  EXPECT_EQ(m.platform_id, 3);
+  ASSERT_TRUE(m.nodes[0].payload);
+  EXPECT_FALSE(m.nodes[1].payload);
+  EXPECT_EQ(m.nodes[0].payload->load().cloud->xyz, two_points);
+  EXPECT_FALSE(m.nodes[0].payload->load().trees);
+  EXPECT_TRUE(contains(m.warnings, "1 of 2 nodes have no cloud: 11_0"));
+}
+
+TEST(MissionFolder, TrailingSlashNamesTheSameMission) {
+  MissionOnDisk disk;
+  const auto reader = testing::component<MissionReader>("mission_folder");
+  EXPECT_EQ(reader->read(disk.path() / "", *testing::make_context()).name, disk.read().name);
+}
+
+TEST(MissionFolder, BareGraphIsAMissionWithoutPayloads) {
+  MissionOnDisk disk;
+  const auto reader = testing::component<MissionReader>("mission_folder");
+  const Mission m = reader->read(disk.path() / "slam_pose_graph.g2o", *testing::make_context());
+  EXPECT_EQ(m.name, "slam_pose_graph");
+  EXPECT_EQ(m.nodes.size(), 2u);
+}
+
+TEST(MissionFolder, EveryEncodingOfACloudGivesTheSamePoints) {
+  EXPECT_EQ(pcd(pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n").xyz, two_points);
+  EXPECT_EQ(pcd(pcd_head + "DATA binary\n" + bytes(two_points)).xyz, two_points);
+  // LZF, one run of 24 literal bytes; fields one after another.
+  const std::string by_field = bytes<float>({1, -4.5, 2, 5, 3, 6});
+  EXPECT_EQ(pcd(pcd_head + "DATA binary_compressed\n" + bytes<std::uint32_t>({25, 24}) + '\x17' +
+                by_field)
+                .xyz,
+            two_points);
+  EXPECT_EQ(ply(ply_head + "1 2 3\n-4.5 5 6\n").xyz, two_points);
+  EXPECT_EQ(ply(replaced(ply_head, "ascii", "binary_little_endian") + bytes(two_points)).xyz,
+            two_points);
+}
+
+TEST(MissionFolder, OtherFieldsAndTypes) {
+  const std::string head =
+      "VERSION 0.7\nFIELDS intensity x y z normal_x normal_y normal_z\nSIZE 2 8 8 8 4 4 4\n"
+      "TYPE U F F F F F F\nCOUNT 1 1 1 1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA binary\n";
+  const Cloud c =
+      pcd(head + bytes<std::uint16_t>({777}) + bytes<double>({1, 2, 3}) + bytes<float>({0, 0, 2}));
+  EXPECT_EQ(c.xyz, (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(c.intensity, std::vector<float>{777});
+  EXPECT_EQ(c.normals, (std::vector<float>{0, 0, 1}));
+}
+
+TEST(MissionFolder, NotFinitePointsAreRemovedAndCounted) {
+  MissionOnDisk disk;
+  disk.cloud("cloud_10_000000005.pcd", pcd_head + "DATA ascii\nnan 2 3\n-4.5 5 6\n");
+  EXPECT_EQ(disk.first_cloud().xyz, (std::vector<float>{-4.5, 5, 6}));
+  EXPECT_TRUE(contains(disk.read("{check_payloads: true}").warnings, "of which 1 are removed"));
+}
+
+TEST(MissionFolder, ViewpointOnRequest) {
+  const std::string content = pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n";
+  const Cloud c = pcd(content, "{apply_viewpoint: true}");
+  EXPECT_NEAR(c.xyz[0], 10 - 1, 1e-6);  // half a turn about z at (10, 0, 0)
+  EXPECT_NEAR(c.xyz[1], -2, 1e-6);
+  MissionOnDisk disk;
+  disk.cloud("cloud_10_000000005.pcd", content);
+  EXPECT_NE(disk.read().nodes[0].payload->digest(),
+            disk.read("{apply_viewpoint: true}").nodes[0].payload->digest());
+}
+
+TEST(MissionFolder, DigestsFollowTheContent) {
+  MissionOnDisk a, b;
+  a.cloud("cloud_10_000000005.pcd", pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n");
+  b.cloud("cloud_10_000000005.pcd", pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n");
+  EXPECT_EQ(a.read().nodes[0].payload->digest(), b.read().nodes[0].payload->digest());
+  b.cloud("cloud_10_000000005.pcd", pcd_head + "DATA ascii\n1 2 3\n-4.5 5 7\n");
+  EXPECT_NE(a.read().nodes[0].payload->digest(), b.read().nodes[0].payload->digest());
+}
+
+TEST(MissionFolder, EmptyCloudIsAWarning) {
+  MissionOnDisk disk;
+  disk.cloud(
+      "cloud_10_000000005.pcd",
+      replaced(replaced(pcd_head, "WIDTH 2", "WIDTH 0"), "POINTS 2", "POINTS 0") + "DATA binary\n");
+  EXPECT_TRUE(disk.first_cloud().empty());
+  EXPECT_TRUE(contains(disk.read("{check_payloads: true}").warnings, "1 clouds are empty"));
+}
+
+TEST(MissionFolder, DamagedCloudsSayWhatWasExpected) {
+  const auto refusal = [](const std::string& content, const char* extension = ".pcd") {
+    return MissionOnDisk().cloud(std::string("cloud_10_000000005") + extension, content).refusal();
+  };
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), message.npos) << message;
+    EXPECT_NE(message.find("cloud_10_000000005"), message.npos) << message;
+  };
+  expect(refusal(""), "is an empty file");
+  expect(refusal(pcd_head + "DATA binary\n" + bytes<float>({1, 2, 3, 4})),
+         "the header promises 2 points, the file holds 1");
+  expect(refusal(pcd_head + "DATA binary\n" + bytes<float>(std::vector<float>(9, 1.f))), "holds 3");
+  expect(refusal(pcd_head + "DATA ascii\n1 2 3\n"), "promises 2 points, the file holds 1");
+  expect(refusal(pcd_head + "DATA ascii\n1 2 3\n1 2 3\n1 2 3\n"), "holds 3");
+  expect(refusal(pcd_head + "DATA ascii\n1 2 3\n4 five 6\n"), "point 2 is not of 3 numbers");
+  expect(refusal(ply_head + "1 2 3\n4 5\n", ".ply"), "point 2 is not of 3 numbers");
+  expect(refusal(pcd_head + "DATA binary_compressed\n" + bytes<std::uint32_t>({25, 24}) + "abc"),
+         "damaged");
+  expect(refusal(pcd_head + "DATA binary_compressed\n"), "damaged");
+  expect(refusal(pcd_head + "DATA zip\n"), "'zip'");
+  expect(refusal(replaced(pcd_head, "POINTS 2", "POINTS 7") + "DATA ascii\n1 2 3\n1 2 3\n"),
+         "says POINTS 7, but WIDTH x HEIGHT is 2");
+  expect(refusal(replaced(pcd_head, "WIDTH 2", "WIDTH -2") + "DATA ascii\n"), "WIDTH '-2'");
+  expect(refusal(replaced(pcd_head, "x y z", "x y w") + "DATA ascii\n1 2 3\n1 2 3\n"),
+         "no field 'z'");
+  expect(refusal(replaced(pcd_head, "x y z", "x y") + "DATA ascii\n1 2\n1 2\n"), "lengths");
+  expect(refusal(std::string(4000, '\x7f')), "is no PCD file");
+  expect(refusal(ply_head + "1 2 3\n", ".ply"), "promises 2 points, the file holds 1");
+  expect(refusal(replaced(ply_head, "ascii", "binary_little_endian") + "abc", ".ply"), "holds 0");
+  expect(refusal("ply\nformat ascii 1.0\n", ".ply"), "no end_header");
+  expect(refusal("solid", ".ply"), "does not begin with 'ply'");
+}
+
+TEST(MissionFolder, FilesWithoutANodeAreWarnings) {
+  MissionOnDisk disk;
+  const std::string content = pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n";
+  disk.cloud("cloud_10_000000005.pcd", content).cloud("cloud_99_000000000.pcd", content);
+  disk.cloud("notes.txt", "x").cloud("cloud_10_000000005.ply", ply_head + "1 2 3\n1 2 3\n");
+  const Mission m = disk.read();
+  EXPECT_TRUE(contains(m.warnings, "2 files belong to no node: notes.txt cloud_99_000000000.pcd"));
+  EXPECT_TRUE(contains(m.warnings, "1 files are left out"));
+  EXPECT_EQ(m.nodes[0].payload->where(),
+            (disk.path() / "individual_clouds/cloud_10_000000005.pcd").string());
+}
+
+TEST(MissionFolder, OtherCloudFolders) {
+  MissionOnDisk disk;
+  disk.cloud("cloud_10_000000005.pcd", pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n");
+  fs::rename(disk.path() / "individual_clouds", disk.path() / "payload_clouds");
+  EXPECT_TRUE(disk.read().nodes[0].payload);
+  EXPECT_FALSE(disk.read("{cloud_folders: [scans]}").nodes[0].payload);
+}
+
+TEST(MissionFolder, UnreadablePlaces) {
+  const auto reader = testing::component<MissionReader>("mission_folder");
+  const auto context = testing::make_context();
+  const testing::TemporaryFolder empty;
+  EXPECT_THROW(reader->read(empty.path(), *context), Error);
+  EXPECT_THROW(reader->read(empty / "absent", *context), Error);
+  write_file(empty / "file.txt", "x");
+  EXPECT_THROW(reader->read(empty / "file.txt", *context), Error);
+  EXPECT_THROW(reader->read(empty / "file.txt" / "deeper", *context), Error);
+  MissionOnDisk disk;
+  fs::remove_all(disk.path() / "individual_clouds");
+  write_file(disk.path() / "individual_clouds", "a file in place of a folder");
+  try {
+    disk.read();
+    FAIL() << "expected an error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), (disk.path() / "individual_clouds").string());
+  }
+}
+
+TEST(MissionFolder, BadTablesNameTheLine) {
+  const auto refusal = [](const std::string& file, const std::string& content) -> std::string {
+    MissionOnDisk disk;
+    fs::create_directories(disk.path() / "individual_trees");
+    write_file(disk.path() / file, content);
+    try {
+      disk.read().nodes[0].payload->load();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string trees = "individual_trees/trees_10_000000005.csv";
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), message.npos) << message;
+  };
+  expect(refusal(trees, "x,y,z,dbh\n1,2,3,0.2\n1,2\n"), ".csv:3: expected 4 fields");
+  expect(refusal(trees, "x,y,z,dbh\n1,2,nan,0.2\n"), ".csv:2: found z 'nan'");
+  expect(refusal(trees, "x,y,z,dbh\n1,2,3,-1\n"), ".csv:2: found dbh -1");
+  expect(refusal(trees, "a,b\n"), ".csv:1: found no column 'x'");
+  expect(refusal(trees, ""), "found no column 'x'");
+  expect(refusal(trees, "x,y,z,axis_x,axis_y,axis_z\n1,2,3,0,0,0\n"), "axis has no length");
+  const std::string head = "sec,nsec,lat,lon,alt,sd_e,sd_n,sd_u\n";
+  expect(refusal("gnss.csv", head + "1,0,61,25,100,1,1,0\n"), "gnss.csv:2: found sd_u 0");
+  expect(refusal("gnss.csv", head + "1,0,125,25,100,1,1,1\n"), "gnss.csv:2: expected lat");
+  expect(refusal("gnss.csv", "stamp,lat\n1,2\n"), "gnss.csv:1: found no column 'sec'");
+  expect(refusal("gnss.csv", "sec,nsec,lat,lon,alt,sigma\n"), "found column 'sigma'");
+}
+
+TEST(MissionFolder, CovarianceColumnsAndOrderOfFixes) {
+  MissionOnDisk disk;
+  write_file(disk.path() / "gnss.csv",
+             "sec,nsec,lat,lon,alt,cov_ee,cov_en,cov_eu,cov_nn,cov_nu,cov_uu\n"
+             "12,0,61,25,100,4,1,0.5,9,0.25,16\n11,7,61,25,101,4,0,0,9,0,16\n");
+  const Mission m = disk.read();
+  ASSERT_EQ(m.fixes.size(), 2u);
+  EXPECT_EQ(m.fixes[0].stamp, (Stamp{11, 7}));
+  EXPECT_EQ(m.fixes[1].covariance, (Mat3() << 4, 1, 0.5, 1, 9, 0.25, 0.5, 0.25, 16).finished());
+}
+
+/// The block ```name of docs/formats.md.
+std::string example(const std::string& name) {
+  const std::string text = read_file(fs::path(CAMBIUM_SOURCE_DIR) / "docs/formats.md");
+  const std::string fence = "```" + name + "\n";
+  const auto begin = text.find(fence) + fence.size();
+  return text.substr(begin, text.find("```", begin) - begin);
+}
+
+TEST(MissionFolder, TheExampleOfTheDocumentationIsAMission) {
+  const testing::TemporaryFolder folder;
+  fs::create_directories(folder / "individual_trees");
+  write_file(folder / "slam_pose_graph.slam", example("g2o"));
+  for (const char* stamp : {"1683269382_051793003", "1683269384_652873039"})
+    write_file(folder / "individual_trees" / (std::string("trees_") + stamp + ".csv"),
+               example("trees"));
+  write_file(folder / "gnss.csv", example("gnss"));
+  const Mission m = testing::component<MissionReader>("mission_folder")
+                        ->read(folder.path(), *testing::make_context());
+  EXPECT_TRUE(m.warnings.empty()) << m.warnings[0];
+  EXPECT_EQ(m.nodes.size(), 2u);
+  EXPECT_EQ(m.edges.size(), 1u);
+  EXPECT_TRUE(m.georeference && m.nodes[0].fixed);
+  const auto trees = m.nodes[1].payload->load().trees;
+  ASSERT_EQ(trees->size(), 2u);
+  EXPECT_TRUE(std::isnan((*trees)[1].dbh));
+  EXPECT_EQ((*trees)[0].dbh, 0.165);
+  EXPECT_NEAR((*trees)[0].axis.norm(), 1, 1e-12);
+  EXPECT_TRUE((*trees)[0].reconstructed && !(*trees)[1].reconstructed);
+  ASSERT_EQ(m.fixes.size(), 1u);
+  EXPECT_EQ(m.fixes[0].covariance(2, 2), 36);
+}
+
+TEST(MissionFolder, RealMissionsHaveNothingToWarnOf) {
+  const auto reader = testing::component<MissionReader>("mission_folder", "{check_payloads: true}");
+  for (const char* archive : {"missions_newer_college", "missions_evo"}) {
+    const auto data = testing::real_data(archive);
+    if (data.empty()) GTEST_SKIP() << archive << " is not there";
+    int missions = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(data)) {
+      if (!fs::exists(entry.path() / "slam_pose_graph.g2o")) continue;
+      const Mission m = reader->read(entry.path(), *testing::make_context(2));
+      EXPECT_TRUE(m.warnings.empty()) << m.warnings[0];
+      for (const Node& node : m.nodes) ASSERT_TRUE(node.payload);
+      ++missions;
+    }
+    EXPECT_GE(missions, 2);
+  }
+}
+
+}  // namespace
+}  // namespace cambium

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "cambium/files.hpp"
+#include "support/support.hpp"
+
+namespace cambium::testing {
+namespace {
+
+pid_t start(std::vector<std::string> arguments, const std::filesystem::path& out,
+            const std::filesystem::path& err) {
+  arguments.insert(arguments.begin(), CAMBIUM_PROGRAM);
+  std::vector<char*> argv;
+  for (auto& a : arguments) argv.push_back(a.data());
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
+  ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
+  ::setenv("CAMBIUM_CACHE", (out.parent_path() / "cache").c_str(), 1);
+  ::execv(argv[0], argv.data());
+  ::_exit(127);
+}
+
+Outcome finish(pid_t child, const std::filesystem::path& out, const std::filesystem::path& err) {
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, read_file(out), read_file(err)};
+}
+
+}  // namespace
+
+Outcome run_cambium(const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  return finish(start(arguments, folder / "out", folder / "err"), folder / "out", folder / "err");
+}
+
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds) {
+  const TemporaryFolder folder;
+  const pid_t child = start(arguments, folder / "out", folder / "err");
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  ::kill(child, SIGINT);
+  return finish(child, folder / "out", folder / "err");
+}
+
+nlohmann::json read_json(const std::filesystem::path& path) {
+  return nlohmann::json::parse(read_file(path));
+}
+
+double metric(const nlohmann::json& report, const std::string& name) {
+  for (const auto& m : report["metrics"])
+    if (m["name"] == name) return m["value"];
+  ADD_FAILURE() << "no metric " << name << " in " << report["metrics"].dump(1);
+  return std::nan("");
+}
+
+std::string pipeline(const std::string& name) {
+  return std::string(CAMBIUM_SOURCE_DIR) + "/pipelines/" + name;
+}
+
+}  // namespace cambium::testing

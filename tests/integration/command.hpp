@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the command line as a user would.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace cambium::testing {
+
+struct Outcome {
+  int code = 0;  ///< exit code; 128 + n when a signal n ended the process
+  std::string out, err;
+};
+
+/// `cambium ARGUMENTS...` with the plugins of this build and no cache unless the arguments name
+/// one.
+Outcome run_cambium(const std::vector<std::string>& arguments);
+
+/// The same, interrupted (SIGINT) after `seconds`.
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds);
+
+nlohmann::json read_json(const std::filesystem::path& path);
+
+/// The value of a metric in a report.json; fails the test when it is absent.
+double metric(const nlohmann::json& report, const std::string& name);
+
+std::string pipeline(const std::string& name);  ///< path of a shipped pipeline
+
+}  // namespace cambium::testing

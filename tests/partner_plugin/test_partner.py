@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A partner's view: Cambium installed, the page docs/write-a-plugin.md, and nothing else.
+
+Arguments: the source folder, the build folder, and the name of a shipped plugin's folder that must
+also build outside the tree.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import missions
+import page
+
+
+def run(*command, **options):
+    done = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          **options)
+    if done.returncode:
+        raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}")
+    return done.stdout
+
+
+class Partner(unittest.TestCase):
+    source = build = shipped = None
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.work = Path(folder.name)
+        cls.prefix = cls.work / "prefix"
+        run("cmake", "--install", cls.build, "--prefix", cls.prefix)
+        cls.environment = {**os.environ, "CMAKE_PREFIX_PATH": str(cls.prefix),
+                           "PATH": f"{cls.prefix / 'bin'}:{os.environ['PATH']}"}
+        cls.environment["CAMBIUM_CACHE"] = str(cls.work / "cache")
+        cls.environment.pop("CAMBIUM_PLUGIN_PATH", None)
+        cls.page = Path(cls.source, "docs/write-a-plugin.md").read_text()
+
+    def shell(self, commands, folder):
+        return run("bash", "-euo", "pipefail", "-c", commands, cwd=folder, env=self.environment)
+
+    def test_page_shows_the_files_of_the_example(self):
+        shown = page.files(self.page)
+        self.assertEqual(sorted(shown), ["CMakeLists.txt", "ring_key.cpp", "ring_key.yaml"])
+        for name, content in shown.items():
+            self.assertEqual(content, Path(self.source, "tests/partner_plugin", name).read_text(), name)
+        self.assertLessEqual(len(shown["ring_key.cpp"].splitlines()), 60)
+
+    def test_following_the_page_gives_a_run(self):
+        folder = self.work / "ring_key"
+        folder.mkdir()
+        for name, content in page.files(self.page).items():
+            (folder / name).write_text(content)
+        missions.write_mission(folder / "mission_a", 10, heading=0.0, seed=2)
+        missions.write_mission(folder / "mission_b", 10, heading=1.0, seed=3)
+        self.assertRegex(self.shell(page.commands(self.page), folder), r"ring_key +Points per ring")
+        self.check_ledger(folder / "fused/ledger.jsonl")
+
+    def check_ledger(self, ledger):
+        """Nodes of one number stand at one place; most must find each other."""
+        loops = [json.loads(line) for line in ledger.read_text().splitlines()]
+        self.assertEqual({loop["proposed_by"] for loop in loops}, {"ring_key"})
+        found = {loop["tail"]["id"] for loop in loops if loop["tail"]["id"] == loop["head"]["id"]}
+        self.assertGreaterEqual(len(found), 8, f"of 10 nodes; {len(loops)} proposals")
+        self.assertLessEqual(len(loops), 30, "three candidates for each of ten nodes")
+
+    def test_an_installed_plugin_is_found_without_a_path(self):
+        example = Path(self.source, "tests/partner_plugin")
+        for command in (("-S", example, "-B", self.work / "b"), ("--build", self.work / "b"),
+                        ("--install", self.work / "b", "--prefix", self.prefix)):
+            run("cmake", *command, env=self.environment)
+        self.addCleanup(lambda: next(self.prefix.rglob("ring_key.so")).unlink())
+        self.assertIn("ring_key", self.shell("cambium plugins list", self.work))
+
+    def test_a_shipped_plugin_builds_outside_the_tree(self):
+        name = Path(self.shipped).name
+        folder = self.work / "shipped" / name
+        shutil.copytree(Path(self.source, self.shipped), folder)
+        self.shell("cmake -S . -B build -DCMAKE_BUILD_TYPE=Release\ncmake --build build\n"
+                   f"find {self.prefix} -name {name}.so -delete\n", folder)
+        listed = self.shell(f"cambium plugins list --plugin-path build/{name}.so", folder)
+        self.assertIn(name, listed)
+
+
+if __name__ == "__main__":
+    Partner.source, Partner.build, Partner.shipped = sys.argv[1:4]
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/frames.hpp"
+
+#include <algorithm>
+
+#include "engine/graph.hpp"
+#include "support/support.hpp"
+
+using namespace cambium;
+
+namespace {
+
+std::vector<SE3> straight_path(int n) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < n; ++i) poses.push_back(SE3::from_yaw(0.05 * i, {2.0 * i, 0.3 * i, 0}));
+  return poses;
+}
+
+// The same path, written in a frame that T_a_own moves onto that of the path.
+std::vector<SE3> seen_from(const SE3& T_a_own, const std::vector<SE3>& path) {
+  std::vector<SE3> poses;
+  for (const SE3& T : path) poses.push_back(T_a_own.inverse() * T);
+  return poses;
+}
+
+Loop accepted(NodeRef tail, NodeRef head, const SE3& T) {
+  Loop loop;
+  loop.tail = tail;
+  loop.head = head;
+  loop.T_tail_head = T;
+  loop.state = LoopState::accepted;
+  return loop;
+}
+
+const SE3 T_a_b = SE3::from_yaw(1.2, {30, -20, 5});
+
+Atlas two_missions(int wrong) {
+  const auto path = straight_path(20);
+  Atlas atlas = cambium::testing::make_atlas(
+      {cambium::testing::make_mission("a", path), cambium::testing::make_mission("b", seen_from(T_a_b, path))});
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    // The first ones are wrong, so that "take the first loop" would fail.
+    const SE3 T = int(i) < wrong ? SE3::from_yaw(0.7 * i, {9.0 + i, 4, 0}) : SE3{};
+    atlas.loops.push_back(accepted({0, i}, {1, i}, T));
+  }
+  return atlas;
+}
+
+}  // namespace
+
+TEST(JoinIslands, PlacesAMissionByWhatMostLoopsSay) {
+  for (const int wrong : {0, 1, 9}) {
+    const Atlas joined = join_islands(two_missions(wrong));
+    ASSERT_EQ(joined.islands.size(), 1u);
+    for (std::uint32_t i = 0; i < 20; ++i)
+      EXPECT_LT((joined.T_map_node({0, i}).t - joined.T_map_node({1, i}).t).norm(), 1e-9);
+    EXPECT_EQ(joined.T_map_node({0, 3}).t,
+              two_missions(0).T_map_node({0, 3}).t);  // a gives the frame
+  }
+}
+
+TEST(JoinIslands, MissionsWithoutAcceptedLoopsStayIslands) {
+  Atlas atlas = two_missions(0);
+  for (Loop& loop : atlas.loops) loop.state = LoopState::rejected;
+  const Atlas joined = join_islands(atlas);
+  ASSERT_EQ(joined.islands.size(), 2u);
+  EXPECT_EQ(joined.islands[1].missions, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(joined.T_map_node({1, 5}).t, atlas.T_map_node({1, 5}).t);
+}
+
+TEST(JoinIslands, ChainsAndLaterWavesGrowTheSameIsland) {
+  const auto path = straight_path(5);
+  Atlas atlas = cambium::testing::make_atlas({cambium::testing::make_mission("a", path),
+                                     cambium::testing::make_mission("b", seen_from(T_a_b, path)),
+                                     cambium::testing::make_mission("c", seen_from(T_a_b.inverse(), path))});
+  atlas.loops = {accepted({1, 2}, {2, 2}, SE3{})};
+  atlas = join_islands(atlas);
+  ASSERT_EQ(atlas.islands.size(), 2u);
+  EXPECT_EQ(atlas.islands[1].missions, (std::vector<std::uint32_t>{1, 2}));
+  atlas.loops.push_back(accepted({0, 1}, {2, 1}, SE3{}));
+  atlas = join_islands(atlas);
+  ASSERT_EQ(atlas.islands.size(), 1u);
+  for (std::uint32_t m = 0; m < 3; ++m)
+    EXPECT_LT((atlas.T_map_node({m, 4}).t - path[4].t).norm(), 1e-9) << m;
+}
+
+TEST(BuildGraph, HoldsTheFirstNodeOrWhatFixNames) {
+  Atlas atlas = join_islands(two_missions(0));
+  const auto no_warning = [](const std::string& w) { FAIL() << w; };
+  IslandGraph g = build_graph(atlas, 0, 0, no_warning);
+  EXPECT_EQ(g.nodes.size(), 40u);
+  EXPECT_EQ(g.loops.size(), 20u);
+  EXPECT_EQ(g.graph.relative.size(), 19u + 19u + 20u);
+  EXPECT_TRUE(g.graph.relative.back().robust);
+  EXPECT_FALSE(g.graph.relative.front().robust);
+  EXPECT_EQ(std::count(g.graph.fixed.begin(), g.graph.fixed.end(), true), 1);
+  EXPECT_TRUE(g.graph.fixed[0]);
+
+  Mission fixed = *atlas.missions[0].mission;
+  fixed.nodes[7].fixed = true;
+  atlas.missions[0].mission = std::make_shared<const Mission>(fixed);
+  g = build_graph(atlas, 0, 0, no_warning);
+  EXPECT_TRUE(g.graph.fixed[7]);
+  EXPECT_FALSE(g.graph.fixed[0]);
+}
+
+TEST(BuildGraph, AttitudeFactorsAgreeWithWhereTheMissionIs) {
+  const Atlas atlas = join_islands(two_missions(0));
+  const IslandGraph g = build_graph(atlas, 0, 0.02, [](const std::string&) {});
+  ASSERT_EQ(g.graph.attitude.size(), 40u);
+  PoseGraph only = g.graph;
+  only.relative.clear();
+  EXPECT_LT(cost(only, only.T_map_node), 1e-18);
+}
