@@ -105,7 +105,7 @@ class PairwiseConsistency final : public LoopVerifier {
   double min_support_path_ = 5.0;
   Drift drift_{{0.01, 0.0003}, {0.05, 0.005}};
   Sigma loop_{0.1, 0.01};
-  std::int64_t branch_limit_ = 100000;
+  std::int64_t branch_limit_ = 1000000;
 };
 
 }  // namespace
