@@ -62,6 +62,16 @@ platforms:
   EXPECT_EQ(p.steps[1].platform_params.at(2).find("max_distance")->as_double(), 2.0);
 }
 
+TEST_F(PipelineFile, IsFoundByItsBareNameInTheCurrentFolder) {
+  load("version: 1\nmissions: [a]\nsteps: [{recognize: scan_context}]\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  std::string mission;
+  EXPECT_NO_THROW(mission = load_pipeline("p.yaml", {}).missions.at(0).path);
+  std::filesystem::current_path(before);
+  EXPECT_EQ(mission, (std::filesystem::canonical(folder.path()) / "a").string());
+}
+
 TEST_F(PipelineFile, NamesEveryMistakeWithItsPlace) {
   const std::string text = mistakes(R"(version: 2
 missons: [a]
