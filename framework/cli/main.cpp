@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
   add_inspect(app);
   add_plugins(app);
   add_schema(app);
+  add_simulate(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

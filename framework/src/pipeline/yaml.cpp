@@ -142,4 +142,12 @@ Yaml parse_yaml(const std::string& text, const std::string& file, Diagnostics& d
   }
 }
 
+void check_keys(const Yaml& map, const std::vector<std::string>& known, const std::string& of,
+                Diagnostics& diagnostics) {
+  for (const auto& [key, value] : map.map)
+    if (std::find(known.begin(), known.end(), key.scalar) == known.end())
+      diagnostics.add(key.where, fmt::format("unknown key '{}' in {}{}", key.scalar, of,
+                                             suggestion(key.scalar, known)));
+}
+
 }  // namespace cambium

@@ -119,7 +119,7 @@ class MapCrispness final : public Evaluator {
   }
 
   double voxel_size_ = 0.5;
-  double radius_ = 0.5;
+  double radius_ = 1.0;
   double max_distance_ = 5.0;
   double min_path_ = 20.0;
   int max_pairs_ = 200;

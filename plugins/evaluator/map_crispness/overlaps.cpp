@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "overlaps.hpp"
 
-#include "cambium/context.hpp"
-
 namespace map_crispness {
 namespace {
 

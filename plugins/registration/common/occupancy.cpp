@@ -11,9 +11,9 @@ constexpr float farthest = 60;  // [m] scans are sparse beyond, and the grid is 
 
 }  // namespace
 
-Eigen::Matrix3Xf upright(const Surface& surface) {
+Eigen::Matrix3Xf upright(const Points& points) {
   std::vector<float> xyz;
-  for (const Point& p : *surface.points)
+  for (const Point& p : points)
     if (std::abs(p.normal_z) < 0.7F && p.getVector3fMap().norm() < farthest)
       xyz.insert(xyz.end(), {p.x, p.y, p.z});
   return Eigen::Map<Eigen::Matrix3Xf>(xyz.data(), 3, Eigen::Index(xyz.size() / 3));
@@ -46,8 +46,8 @@ std::vector<std::int32_t> Occupancy::places(const Eigen::Matrix3Xf& points) cons
   result.reserve(std::size_t(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Eigen::Array3f c = (points.col(i) - origin_).array() / cell_;
-    const bool within_reach = (c >= reach_.cast<float>()).all() &&
-                              (c < (size_ - reach_).cast<float>()).all();
+    const bool within_reach =
+        (c >= reach_.cast<float>()).all() && (c < (size_ - reach_).cast<float>()).all();
     if (within_reach) result.push_back(place(c.cast<int>()));
   }
   return result;

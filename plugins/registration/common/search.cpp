@@ -19,9 +19,8 @@ int steps(double limit, double step) { return int(std::ceil(limit / step - 1e-9)
 // Scores every translation of the window for one yaw; the points are turned once.
 void score_translations(const Occupancy& grid, const Eigen::Matrix3Xf& points, const SE3& start,
                         const SearchWindow& window, std::vector<Scored>& scored) {
-  const std::vector<std::int32_t> places =
-      grid.places((start.rotation().cast<float>() * points).colwise() +
-                  Eigen::Vector3f(start.t.cast<float>()));
+  const std::vector<std::int32_t> places = grid.places(
+      (start.rotation().cast<float>() * points).colwise() + Eigen::Vector3f(start.t.cast<float>()));
   const int across = steps(window.radius, window.step);
   const int up = steps(window.height, window.step);
   for (int x = -across; x <= across; ++x)
@@ -43,13 +42,13 @@ bool distinct(const SE3& a, const SE3& b, const SearchWindow& window) {
 
 }  // namespace
 
-std::vector<SE3> search(const Surface& target, const Surface& source, const SE3& guess,
+std::vector<SE3> search(const Surface& target, const Points& source, const SE3& guess,
                         const SearchWindow& window) {
   if (window.radius <= 0 && window.yaw <= 0) return {guess};
   const Eigen::Matrix3Xf standing_source = upright(source);
   if (standing_source.cols() == 0) return {guess};
   const int across = steps(window.radius, window.step);
-  const Occupancy grid(upright(target), float(window.step),
+  const Occupancy grid(upright(*target.points), float(window.step),
                        {across, across, steps(window.height, window.step)});
   std::vector<Scored> scored;
   const int turns = steps(window.yaw, window.yaw_step);
