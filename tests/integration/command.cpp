@@ -41,12 +41,12 @@ Outcome finish(pid_t child, const std::filesystem::path& out, const std::filesys
 
 }  // namespace
 
-Outcome cambium(const std::vector<std::string>& arguments) {
+Outcome run_cambium(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   return finish(start(arguments, folder / "out", folder / "err"), folder / "out", folder / "err");
 }
 
-Outcome cambium_interrupted(const std::vector<std::string>& arguments, double seconds) {
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds) {
   const TemporaryFolder folder;
   const pid_t child = start(arguments, folder / "out", folder / "err");
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));

@@ -16,10 +16,10 @@ struct Outcome {
 
 /// `cambium ARGUMENTS...` with the plugins of this build and no cache unless the arguments name
 /// one.
-Outcome cambium(const std::vector<std::string>& arguments);
+Outcome run_cambium(const std::vector<std::string>& arguments);
 
 /// The same, interrupted (SIGINT) after `seconds`.
-Outcome cambium_interrupted(const std::vector<std::string>& arguments, double seconds);
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds);
 
 nlohmann::json read_json(const std::filesystem::path& path);
 

@@ -33,19 +33,19 @@ std::string write_pipeline(const TemporaryFolder& folder, const std::string& tex
 
 TEST(CommandLine, EveryCommandHelpsWithAnExample) {
   for (const char* command : {"run", "validate", "inspect", "plugins", "schema"}) {
-    const auto help = cambium::testing::cambium({command, "--help"});
+    const auto help = run_cambium({command, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_CONTAINS(help.out, "Example: cambium " + std::string(command));
   }
-  EXPECT_CONTAINS(cambium::testing::cambium({"--version"}).out, "cambium 0.");
-  EXPECT_EQ(cambium::testing::cambium({"rum"}).code, 2);
+  EXPECT_CONTAINS(run_cambium({"--version"}).out, "cambium 0.");
+  EXPECT_EQ(run_cambium({"rum"}).code, 2);
 }
 
 TEST(CommandLine, ShippedPipelinesAreValid) {
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(pipeline(""))) {
     if (entry.path().extension() != ".yaml" || entry.path().filename() == "forest.yaml") continue;
-    const auto outcome = cambium::testing::cambium({"validate", entry.path().string()});
+    const auto outcome = run_cambium({"validate", entry.path().string()});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     ++count;
   }
@@ -53,7 +53,7 @@ TEST(CommandLine, ShippedPipelinesAreValid) {
 }
 
 TEST(CommandLine, CommittedSchemaIsThatOfThePlugins) {
-  const auto outcome = cambium::testing::cambium({"schema"});
+  const auto outcome = run_cambium({"schema"});
   EXPECT_EQ(outcome.out,
             read_file(std::string(CAMBIUM_SOURCE_DIR) + "/schemas/pipeline.schema.json"))
       << "run: build/bin/cambium schema > schemas/pipeline.schema.json";
@@ -62,20 +62,20 @@ TEST(CommandLine, CommittedSchemaIsThatOfThePlugins) {
 TEST(CommandLine, ResolvedPipelineIsAPipeline) {
   const TemporaryFolder folder;
   const auto resolved =
-      cambium::testing::cambium({"validate", pipeline("fuse_scans.yaml"), "--resolved"});
+      run_cambium({"validate", pipeline("fuse_scans.yaml"), "--resolved"});
   ASSERT_EQ(resolved.code, 0) << resolved.err;
   const auto again =
-      cambium::testing::cambium({"validate", write_pipeline(folder, resolved.out), "--resolved"});
+      run_cambium({"validate", write_pipeline(folder, resolved.out), "--resolved"});
   EXPECT_EQ(resolved.out, again.out) << again.err;
 }
 
 TEST(CommandLine, DescribesPlugins) {
-  const auto list = cambium::testing::cambium({"plugins", "list"});
+  const auto list = run_cambium({"plugins", "list"});
   EXPECT_EQ(list.code, 0);
   EXPECT_CONTAINS(list.out, "scan_context");
-  EXPECT_CONTAINS(cambium::testing::cambium({"plugins", "describe", "scan_context"}).out,
+  EXPECT_CONTAINS(run_cambium({"plugins", "describe", "scan_context"}).out,
                   "| `rings` |");
-  const auto typo = cambium::testing::cambium({"plugins", "describe", "scan_contxt"});
+  const auto typo = run_cambium({"plugins", "describe", "scan_contxt"});
   EXPECT_EQ(typo.code, 2);
   EXPECT_CONTAINS(typo.err, "did you mean 'scan_context'?");
 }
@@ -85,34 +85,34 @@ TEST(CommandLine, MistakesHaveTheirExitCode) {
   const std::string out = (folder / "out").string();
   const std::string mission = small_mission(folder, "m");
   const std::string good = write_pipeline(folder, "version: 1\nsteps: [{optimize: ceres}]\n");
-  EXPECT_EQ(cambium::testing::cambium({"run", good, mission, "--out", out}).code, 0);
+  EXPECT_EQ(run_cambium({"run", good, mission, "--out", out}).code, 0);
 
   const auto unknown =
-      cambium::testing::cambium({"run", good, mission, "--out", out, "--set", "optimize.lss=1"});
+      run_cambium({"run", good, mission, "--out", out, "--set", "optimize.lss=1"});
   EXPECT_EQ(unknown.code, 2);
   EXPECT_CONTAINS(unknown.err, "unknown parameter 'lss'; did you mean 'loss'?");
 
   const auto absent =
-      cambium::testing::cambium({"run", good, (folder / "nobody").string(), "--out", out});
+      run_cambium({"run", good, (folder / "nobody").string(), "--out", out});
   EXPECT_EQ(absent.code, 2);
   EXPECT_CONTAINS(absent.err, "no mission at");
 
   write_file(folder / "bad.g2o",
              "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 nan 0 0 0 0 0 1\n");
   const auto garbage =
-      cambium::testing::cambium({"run", good, (folder / "bad.g2o").string(), "--out", out});
+      run_cambium({"run", good, (folder / "bad.g2o").string(), "--out", out});
   EXPECT_EQ(garbage.code, 4);
   EXPECT_CONTAINS(garbage.err, "bad.g2o:2");
 
   const auto refused =
-      cambium::testing::cambium({"run", good, mission, "--out", folder.path().string()});
+      run_cambium({"run", good, mission, "--out", folder.path().string()});
   EXPECT_EQ(refused.code, 2);
   EXPECT_CONTAINS(refused.err, "not a run of Cambium");
 }
 
 TEST(CommandLine, JsonLogIsJson) {
   const TemporaryFolder folder;
-  const auto outcome = cambium::testing::cambium(
+  const auto outcome = run_cambium(
       {"run", write_pipeline(folder, "version: 1\nsteps: [{optimize: ceres}]\n"),
        small_mission(folder, "m"), "--out", (folder / "out").string(), "--log-json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -27,7 +27,7 @@ TEST(RealData, FuseScansOnNewerCollege) {
   const auto data = real_data("missions_newer_college");
   if (data.empty()) GTEST_SKIP() << "missions_newer_college is not here";
   const TemporaryFolder folder;
-  const auto run = cambium({"run", pipeline("fuse_scans.yaml"), (data / "mission_a").string(),
+  const auto run = run_cambium({"run", pipeline("fuse_scans.yaml"), (data / "mission_a").string(),
                             (data / "mission_b").string(), "--out", (folder / "map").string()});
   ASSERT_EQ(run.code, 0) << run.err;
   const auto report = read_json(folder / "map/report.json");
@@ -49,7 +49,7 @@ TEST(RealData, CloseLoopsOnNclt) {
   const auto data = real_data("missions_nclt");
   if (data.empty()) GTEST_SKIP() << "missions_nclt is not here";
   const TemporaryFolder folder;
-  const auto run = cambium({"run", pipeline("close_loops.yaml"), (data / "mission_nclt").string(),
+  const auto run = run_cambium({"run", pipeline("close_loops.yaml"), (data / "mission_nclt").string(),
                             "--out", (folder / "map").string()});
   ASSERT_EQ(run.code, 0) << run.err;
   const auto before = read_g2o(data / "mission_nclt/slam_pose_graph.g2o");

@@ -29,7 +29,7 @@ class Sample : public Component {
   }
 };
 
-void bind(Component& component, const std::string& yaml) {
+void bind_yaml(Component& component, const std::string& yaml) {
   Diagnostics diagnostics;
   bind_params(component, parse_yaml(yaml, "p.yaml", diagnostics), diagnostics);
   diagnostics.throw_if_any();
@@ -38,7 +38,7 @@ void bind(Component& component, const std::string& yaml) {
 std::string mistakes(const std::string& yaml) {
   Sample sample;
   try {
-    bind(sample, yaml);
+    bind_yaml(sample, yaml);
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::config);
     return e.what();
@@ -50,7 +50,7 @@ std::string mistakes(const std::string& yaml) {
 
 TEST(Binder, SetsEveryType) {
   Sample s;
-  bind(s, "{rings: 5, range: 1e2, level: false, loss: dcs, radii: [3, 4.5]}");
+  bind_yaml(s, "{rings: 5, range: 1e2, level: false, loss: dcs, radii: [3, 4.5]}");
   EXPECT_EQ(s.rings, 5);
   EXPECT_EQ(s.range, 100.0);
   EXPECT_FALSE(s.level);
@@ -60,7 +60,7 @@ TEST(Binder, SetsEveryType) {
 
 TEST(Binder, KeepsDefaults) {
   Sample s;
-  bind(s, "");
+  bind_yaml(s, "");
   EXPECT_EQ(s.rings, 20);
 }
 
@@ -95,7 +95,7 @@ TEST(Params, CanonicalFormNamesEveryValueAndReadsBack) {
   a.range = 0.1 + 0.2;
   a.loss = "dcs";
   a.radii = {1.0 / 3.0};
-  bind(b, canonical_params(a));
+  bind_yaml(b, canonical_params(a));
   EXPECT_EQ(a.range, b.range);
   EXPECT_EQ(a.radii, b.radii);
   EXPECT_EQ(canonical_params(a), canonical_params(b));

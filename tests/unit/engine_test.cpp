@@ -20,7 +20,7 @@ struct WordReader final : MissionReader {
     std::vector<SE3> poses;
     for (int i = 0; i < 6; ++i)
       poses.push_back(frame_of(read_file(path)) * SE3::from_yaw(0, {5.0 * i, 0, 0}));
-    Mission m = testing::make_mission(path.stem().string(), poses);
+    Mission m = cambium::testing::make_mission(path.stem().string(), poses);
     m.digest = digest_file(path);
     return m;
   }
@@ -111,7 +111,7 @@ class EngineRun : public ::testing::Test {
     return run_pipeline(options, prepare_run(options, registry), registry, engine);
   }
 
-  testing::TemporaryFolder folder;
+  cambium::testing::TemporaryFolder folder;
   Registry registry;
 };
 

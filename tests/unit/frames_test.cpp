@@ -36,8 +36,8 @@ const SE3 T_a_b = SE3::from_yaw(1.2, {30, -20, 5});
 
 Atlas two_missions(int wrong) {
   const auto path = straight_path(20);
-  Atlas atlas = testing::make_atlas(
-      {testing::make_mission("a", path), testing::make_mission("b", seen_from(T_a_b, path))});
+  Atlas atlas = cambium::testing::make_atlas(
+      {cambium::testing::make_mission("a", path), cambium::testing::make_mission("b", seen_from(T_a_b, path))});
   for (std::uint32_t i = 0; i < 20; ++i) {
     // The first ones are wrong, so that "take the first loop" would fail.
     const SE3 T = int(i) < wrong ? SE3::from_yaw(0.7 * i, {9.0 + i, 4, 0}) : SE3{};
@@ -70,9 +70,9 @@ TEST(JoinIslands, MissionsWithoutAcceptedLoopsStayIslands) {
 
 TEST(JoinIslands, ChainsAndLaterWavesGrowTheSameIsland) {
   const auto path = straight_path(5);
-  Atlas atlas = testing::make_atlas({testing::make_mission("a", path),
-                                     testing::make_mission("b", seen_from(T_a_b, path)),
-                                     testing::make_mission("c", seen_from(T_a_b.inverse(), path))});
+  Atlas atlas = cambium::testing::make_atlas({cambium::testing::make_mission("a", path),
+                                     cambium::testing::make_mission("b", seen_from(T_a_b, path)),
+                                     cambium::testing::make_mission("c", seen_from(T_a_b.inverse(), path))});
   atlas.loops = {accepted({1, 2}, {2, 2}, SE3{})};
   atlas = join_islands(atlas);
   ASSERT_EQ(atlas.islands.size(), 2u);

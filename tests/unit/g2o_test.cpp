@@ -138,6 +138,13 @@ TEST(G2o, LineEndsAndBlanksDoNotMatter) {
   EXPECT_EQ(odd.nodes[1].stamp, plain.nodes[1].stamp);
 }
 
+// Found by fuzzing: a mark inside the file came to its beginning by writing, and changed its
+// meaning.
+TEST(G2o, ByteOrderMarksOfJoinedFilesAreNoPartOfTheText) {
+  const Mission m = parse("# first\n\xEF\xBB\xBF# second\n" + two_nodes);
+  EXPECT_EQ(m.unknown_lines[1].text, "# second");
+}
+
 TEST(G2o, IdsAboveTwoToTheThirtyTwo) {
   const Mission m = parse(
       "VERTEX_SE3:QUAT 6989586621679009792 0 0 0 0 0 0 1\n"
@@ -215,6 +222,7 @@ TEST(G2o, PriorWithSensorOffsetBecomesAPriorOfTheBase) {
     const double expected = of_sensor.dot(Omega * of_sensor);
     EXPECT_NEAR(of_node.dot(edge.information * of_node), expected, 1e-5 * expected) << axis;
   }
+  EXPECT_EQ(edge.information, Mat6(edge.information.transpose()));
   const std::string text = written(m);
   EXPECT_NE(text.find("PARAMS_SE3OFFSET 4"), std::string::npos);
   EXPECT_EQ(written(parse(text)), text);

@@ -11,7 +11,7 @@ namespace {
 
 class PipelineFile : public ::testing::Test {
  protected:
-  testing::TemporaryFolder folder;
+  cambium::testing::TemporaryFolder folder;
 
   Pipeline load(const std::string& text, const std::vector<std::string>& set = {}) {
     write_file(folder / "p.yaml", text);
@@ -60,6 +60,16 @@ platforms:
   EXPECT_EQ(p.steps[0].keys.min_path, 12.5);
   EXPECT_EQ(p.steps[0].params.find("rings")->as_int(), 20);
   EXPECT_EQ(p.steps[1].platform_params.at(2).find("max_distance")->as_double(), 2.0);
+}
+
+TEST_F(PipelineFile, IsFoundByItsBareNameInTheCurrentFolder) {
+  load("version: 1\nmissions: [a]\nsteps: [{recognize: scan_context}]\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  std::string mission;
+  EXPECT_NO_THROW(mission = load_pipeline("p.yaml", {}).missions.at(0).path);
+  std::filesystem::current_path(before);
+  EXPECT_EQ(mission, (std::filesystem::canonical(folder.path()) / "a").string());
 }
 
 TEST_F(PipelineFile, NamesEveryMistakeWithItsPlace) {

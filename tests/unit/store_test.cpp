@@ -25,7 +25,7 @@ fs::path only_file(const fs::path& folder) {
 }  // namespace
 
 TEST(Cache, GivesBackWhatWasPut) {
-  const testing::TemporaryFolder folder;
+  const cambium::testing::TemporaryFolder folder;
   const Cache cache(folder.path());
   EXPECT_FALSE(cache.get(key(1)));
   cache.put(key(1), std::string("a\0b", 3));
@@ -40,7 +40,7 @@ TEST(Cache, WithoutAFolderKeepsNothing) {
 }
 
 TEST(Cache, DamagedEntriesAreAbsent) {
-  const testing::TemporaryFolder folder;
+  const cambium::testing::TemporaryFolder folder;
   const Cache cache(folder.path());
   const std::string content(1000, 'x');
   for (const std::size_t keep :
@@ -58,7 +58,7 @@ TEST(Cache, DamagedEntriesAreAbsent) {
 }
 
 TEST(Cache, ManyWritersOfOneKeyLeaveOneWholeEntry) {
-  const testing::TemporaryFolder folder;
+  const cambium::testing::TemporaryFolder folder;
   const Cache cache(folder.path());
   const std::string content(100000, 'z');
   std::vector<std::thread> writers;

@@ -170,6 +170,9 @@ struct Metric {
 class Evaluator : public Component {
  public:
   static constexpr Kind kind = Kind::evaluator;
+  /// False: it can say something without ground truth. The others are skipped, with a warning, when
+  /// neither the pipeline nor any mission has a truth.
+  virtual bool needs_truth() const { return true; }
   /// `reference` is a folder with the truth; empty: every mission brings its own in its folder.
   virtual std::vector<Metric> evaluate(const Atlas& atlas, const std::filesystem::path& reference,
                                        const Context& context) const = 0;

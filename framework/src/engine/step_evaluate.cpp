@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cambium/truth.hpp"
 #include "engine/keys.hpp"
 #include "engine/steps.hpp"
 
@@ -26,11 +27,26 @@ Digest truth_key(const std::filesystem::path& reference, const Atlas& atlas) {
   return hasher.digest();
 }
 
+bool has_truth(const std::filesystem::path& reference, const Atlas& atlas) {
+  return !reference.empty() ||
+         std::any_of(atlas.missions.begin(), atlas.missions.end(), [](const MissionState& m) {
+           return std::filesystem::exists(truth_file(*m.mission, {}));
+         });
+}
+
 }  // namespace
 
 Known run_evaluate(Known known, const StepScope& scope) {
   const Configured& c = scope.step.configured;
   const std::filesystem::path reference = scope.step.keys.reference;
+  if (c.as<Evaluator>().needs_truth() && !has_truth(reference, known.atlas)) {
+    scope.record.summary = "skipped: no ground truth";
+    scope.engine.progress().log(LogLevel::warning,
+                                fmt::format("'{}' is skipped: no mission has a ground_truth.tum and "
+                                            "the step names no 'reference'",
+                                            scope.step.title()));
+    return known;
+  }
   std::vector<Metric> metrics;
   scope.run_items(1, [&](std::size_t) {
     bool hit = false;

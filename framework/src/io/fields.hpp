@@ -40,8 +40,8 @@ class Fields {
   const LineOrigin& origin_;
 };
 
-/// Calls on_line(trimmed line, LineOrigin) for every line that is not blank. Takes LF and CRLF, a
-/// UTF-8 byte order mark and a last line without end. Throws Error(data) on binary data.
+/// Calls on_line(trimmed line, LineOrigin) for every line that is not blank. Takes LF and CRLF,
+/// UTF-8 byte order marks and a last line without end. Throws Error(data) on binary data.
 template <class F>
 void for_each_line(std::string_view text, const std::filesystem::path& file, F&& on_line);
 
@@ -55,11 +55,13 @@ std::string quoted(std::string_view text);
 template <class F>
 void for_each_line(std::string_view text, const std::filesystem::path& file, F&& on_line) {
   refuse_binary(text, file);
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
     const bool cut = end == std::string_view::npos;
-    const std::string_view content = trimmed(text.substr(0, end));
+    std::string_view content = trimmed(text.substr(0, end));
+    // Joined files have such marks inside, too.
+    while (content.starts_with(byte_order_mark)) content = trimmed(content.substr(3));
     if (!content.empty()) on_line(content, LineOrigin{file, line, cut});
     text.remove_prefix(cut ? text.size() : end + 1);
   }

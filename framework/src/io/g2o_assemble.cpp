@@ -134,7 +134,8 @@ void G2oParser::apply_offsets() {
         SE3{Quat::Identity(), T_base_sensor.t}.adjoint().topRightCorner<3, 3>();
     J.bottomRightCorner<3, 3>() = T_base_sensor.rotation().transpose();
     edge.T_tail_head = T_mission_node;
-    edge.information = J.transpose() * edge.information * J;
+    const Mat6 information = J.transpose() * edge.information * J;
+    edge.information = information.selfadjointView<Eigen::Upper>();  // exact symmetry
     edge.tag = "EDGE_SE3:QUAT";
     edge.extra.clear();
     warnings_.add(edge.line,

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "cambium/files.hpp"
-#include "pipeline/binder.hpp"
 #include "pipeline/overrides.hpp"
+#include "pipeline/steps.hpp"
 
 namespace cambium {
 namespace {
@@ -21,14 +21,14 @@ class Parser {
   explicit Parser(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   /// The document of `file` on top of those that it extends.
-  Yaml load(const fs::path& file, int depth = 0) {
-    Yaml doc = parse_yaml(read_file(file), file.string(), diagnostics_);
+  Yaml load(const std::string& text, const fs::path& file, int depth = 0) {
+    Yaml doc = parse_yaml(text, file.string(), diagnostics_);
     if (!doc.is_map()) {
       diagnostics_.add(file.string(),
                        "expected a map with 'version' and 'steps', found " + doc.shown());
       return {};
     }
-    make_paths_absolute(doc, file.parent_path());
+    make_paths_absolute(doc, fs::absolute(file).parent_path());
     const Yaml* base = doc.find("extends");
     if (!base) return doc;
     if (!base->is_scalar() || depth > 8) {
@@ -36,21 +36,24 @@ class Parser {
                                               : "'extends' must be a file, found " + base->shown());
       return doc;
     }
-    return over_base(load(file.parent_path() / base->scalar, depth + 1), doc);
+    const fs::path base_file = file.parent_path() / base->scalar;
+    return over_base(load(read_file(base_file), base_file, depth + 1), doc);
   }
 
   Pipeline read(const Yaml& doc) {
     Pipeline p;
-    check_keys(doc, top_keys, "the pipeline");
+    check_keys(doc, top_keys, "the pipeline", diagnostics_);
     check_version(doc);
     if (const Yaml* seed = doc.find("seed")) read_seed(*seed, p);
     if (const Yaml* missions = doc.find("missions"))
       for (const Yaml& m : items(*missions, "missions")) read_mission(m, p);
-    if (const Yaml* steps = doc.find("steps"))
-      for (const Yaml& s : items(*steps, "steps")) read_step(s, p);
-    else
+    if (const Yaml* steps = doc.find("steps")) {
+      for (const Yaml& s : items(*steps, "steps"))
+        if (auto step = parse_step(s, diagnostics_)) p.steps.push_back(std::move(*step));
+    } else {
       diagnostics_.add(doc.where, "'steps' is missing; expected a list such as '- optimize: ...'");
-    if (const Yaml* platforms = doc.find("platforms")) read_platforms(*platforms, p);
+    }
+    if (const Yaml* platforms = doc.find("platforms")) parse_platforms(*platforms, p, diagnostics_);
     return p;
   }
 
@@ -69,7 +72,7 @@ class Parser {
  private:
   static void make_paths_absolute(Yaml& doc, const fs::path& folder) {
     const auto fix = [&](Yaml& y) {
-      if (y.is_scalar()) y.scalar = (fs::absolute(folder) / y.scalar).lexically_normal().string();
+      if (y.is_scalar()) y.scalar = (folder / y.scalar).lexically_normal().string();
     };
     for (auto& item : doc.map) {
       if (item.key.scalar != "missions") continue;
@@ -93,13 +96,6 @@ class Parser {
       out.set(name, merged(*a, *b));
     }
     return out;
-  }
-
-  void check_keys(const Yaml& map, const std::vector<std::string>& known, const std::string& of) {
-    for (const auto& [key, value] : map.map)
-      if (std::find(known.begin(), known.end(), key.scalar) == known.end())
-        diagnostics_.add(key.where, fmt::format("unknown key '{}' in {}{}", key.scalar, of,
-                                                suggestion(key.scalar, known)));
   }
 
   void check_version(const Yaml& doc) {
@@ -130,7 +126,7 @@ class Parser {
     spec.where = m.where;
     if (m.is_scalar()) spec.path = m.scalar;
     if (m.is_map()) {
-      check_keys(m, {"path", "name", "reader", "params"}, "a mission");
+      check_keys(m, {"path", "name", "reader", "params"}, "a mission", diagnostics_);
       for (const auto& [key, value] : m.map) {
         if (key.scalar == "params")
           spec.params = value;
@@ -152,91 +148,25 @@ class Parser {
       p.missions.push_back(std::move(spec));
   }
 
-  void read_step(const Yaml& s, Pipeline& p) {
-    StepSpec step;
-    step.where = s.where;
-    Yaml keys;
-    keys.type = Yaml::Type::map;
-    keys.where = s.where;
-    for (const auto& item : s.map) {
-      if (const Verb* verb = find_verb(item.key.scalar)) {
-        if (step.verb)
-          diagnostics_.add(item.key.where, fmt::format("a second verb '{}' in one step, after '{}'",
-                                                       verb->word, step.verb->word));
-        step.verb = verb;
-        step.plugin = item.value.scalar;
-        step.plugin_where = item.value.where;
-        if (!item.value.is_scalar())
-          diagnostics_.add(item.value.where, fmt::format("'{}' must name a plugin, found {}",
-                                                         verb->word, item.value.shown()));
-      } else if (item.key.scalar == "params") {
-        step.params = item.value;
-      } else {
-        keys.map.push_back(item);
-      }
-    }
-    if (!step.verb) {
-      const std::string word = s.map.empty() ? s.scalar : s.map.front().key.scalar;
-      diagnostics_.add(s.where,
-                       "a step must open with a verb and a plugin such as 'optimize: "
-                       "ceres', found '" +
-                           word + "'" + suggestion(word, verb_words()));
-      return;
-    }
-    step.keys = StepKeys(step.verb);
-    bind_params(step.keys, keys, diagnostics_);
-    p.steps.push_back(std::move(step));
-  }
-
-  void read_platforms(const Yaml& platforms, Pipeline& p) {
-    for (const auto& [id, verbs_of] : platforms.map) {
-      const auto number = id.as_int();
-      if (!number) {
-        diagnostics_.add(id.where,
-                         "a platform must be a PLATFORM_ID (a whole number), found " + id.shown());
-        continue;
-      }
-      for (const auto& [word, body] : verbs_of.map) read_platform(int(*number), word, body, p);
-    }
-  }
-
-  void read_platform(int id, const Yaml& word, const Yaml& body, Pipeline& p) {
-    const Verb* verb = find_verb(word.scalar);
-    if (!verb || !verb->per_platform) {
-      std::vector<std::string> allowed;
-      for (const auto& v : verbs())
-        if (v.per_platform) allowed.push_back(v.word);
-      diagnostics_.add(word.where, fmt::format("'{}' cannot differ between platforms{}",
-                                               word.scalar, suggestion(word.scalar, allowed)));
-      return;
-    }
-    check_keys(body, {"params"}, "a platform's step");
-    const Yaml* params = body.find("params");
-    bool used = false;
-    for (auto& step : p.steps)
-      if (step.verb == verb && params) {
-        step.platform_params[id] = *params;
-        used = true;
-      }
-    if (!used)
-      diagnostics_.add(word.where,
-                       fmt::format("no step '{}' with params to override here", word.scalar));
-  }
-
   Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
 Pipeline load_pipeline(const fs::path& file, const std::vector<std::string>& overrides) {
+  return parse_pipeline(read_file(file), file, overrides);
+}
+
+Pipeline parse_pipeline(const std::string& text, const fs::path& file,
+                        const std::vector<std::string>& overrides) {
   Diagnostics diagnostics;
   Parser parser(diagnostics);
-  const Yaml doc = parser.load(file);
+  const Yaml doc = parser.load(text, file);
   diagnostics.throw_if_any();  // what follows needs a map
   Pipeline p = parser.read(doc);
   p.file = file;
   parser.read_set(doc, p);
-  for (const auto& text : overrides) apply_override(p, text, diagnostics);
+  for (const auto& o : overrides) apply_override(p, o, diagnostics);
   diagnostics.throw_if_any();
   return p;
 }

@@ -43,4 +43,8 @@ struct Pipeline {
 Pipeline load_pipeline(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides = {});
 
+/// The same from a text that is already in memory; `file` names it and is where paths start from.
+Pipeline parse_pipeline(const std::string& text, const std::filesystem::path& file,
+                        const std::vector<std::string>& overrides = {});
+
 }  // namespace cambium

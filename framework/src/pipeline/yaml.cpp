@@ -2,11 +2,13 @@
 #include "pipeline/yaml.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "cambium/error.hpp"
 
@@ -66,6 +68,35 @@ class Converter {
   Diagnostics& diagnostics_;
   std::size_t count_ = 0;
 };
+
+// Notices where a document begins, and nothing else.
+class DocumentStart final : public YAML::EventHandler {
+ public:
+  YAML::Mark mark;
+  void OnDocumentStart(const YAML::Mark& m) override { mark = m; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// Not YAML::LoadAll: on a stray ',' it finds empty documents without end.
+void check_one_document(const std::string& text, const std::string& file,
+                        Diagnostics& diagnostics) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStart document;
+  if (parser.HandleNextDocument(document) && parser.HandleNextDocument(document))
+    diagnostics.add(place(file, document.mark), "a second document begins here, or something that "
+                                                "belongs to none; expected one document");
+}
 
 template <class T>
 std::optional<T> parse_number(const Yaml& y) {
@@ -131,15 +162,19 @@ Yaml merged(Yaml base, const Yaml& over) {
 
 Yaml parse_yaml(const std::string& text, const std::string& file, Diagnostics& diagnostics) {
   try {
-    const auto documents = YAML::LoadAll(text);
-    if (documents.empty()) return {};
-    if (documents.size() > 1)
-      diagnostics.add(place(file, documents[1].Mark()),
-                      "a second document begins here; expected only one");
-    return Converter(file, diagnostics).convert(documents[0], 0);
+    check_one_document(text, file, diagnostics);
+    return Converter(file, diagnostics).convert(YAML::Load(text), 0);
   } catch (const YAML::Exception& e) {
     throw Error(ErrorCode::config, place(file, e.mark), "not valid YAML: " + e.msg);
   }
+}
+
+void check_keys(const Yaml& map, const std::vector<std::string>& known, const std::string& of,
+                Diagnostics& diagnostics) {
+  for (const auto& [key, value] : map.map)
+    if (std::find(known.begin(), known.end(), key.scalar) == known.end())
+      diagnostics.add(key.where, fmt::format("unknown key '{}' in {}{}", key.scalar, of,
+                                             suggestion(key.scalar, known)));
 }
 
 }  // namespace cambium

@@ -49,4 +49,8 @@ Yaml merged(Yaml base, const Yaml& over);
 /// mistakes go to `diagnostics`.
 Yaml parse_yaml(const std::string& text, const std::string& file, Diagnostics& diagnostics);
 
+/// Reports keys of `map` that are not in `known`; `of` says what the map is.
+void check_keys(const Yaml& map, const std::vector<std::string>& known, const std::string& of,
+                Diagnostics& diagnostics);
+
 }  // namespace cambium

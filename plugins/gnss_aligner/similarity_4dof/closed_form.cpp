@@ -3,19 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cambium/fit.hpp"
+#include "cambium/statistics.hpp"
 
 namespace similarity_4dof {
 namespace {
 
 using cambium::Vec3;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
 
 double horizontal_variance(const Pair& pair) {
   return (pair.covariance(0, 0) + pair.covariance(1, 1)) / 2;
@@ -25,7 +21,7 @@ struct Weighted {
   std::vector<Vec3> p_map, p_enu;
   std::vector<double> weight;
   double total = 0;
-  Vec3 centre_enu = Vec3::Zero();
+  Vec3 centre_map = Vec3::Zero();
 };
 
 Weighted weighted(const std::vector<Pair>& pairs) {
@@ -35,9 +31,9 @@ Weighted weighted(const std::vector<Pair>& pairs) {
     out.p_enu.push_back(pair.p_enu);
     out.weight.push_back(1 / horizontal_variance(pair));
     out.total += out.weight.back();
-    out.centre_enu += out.weight.back() * pair.p_enu;
+    out.centre_map += out.weight.back() * pair.p_map;
   }
-  out.centre_enu /= out.total;
+  out.centre_map /= out.total;
   return out;
 }
 
@@ -63,7 +59,9 @@ void measure_residuals(const std::vector<Pair>& pairs, Fit& fit) {
 void propagate(const std::vector<Pair>& pairs, const Weighted& w, Fit& fit) {
   double second_moment = 0, yaw_variance = 0, position_variance = 0, squares = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Eigen::Vector2d r = (w.p_enu[i] - w.centre_enu).head<2>();
+    // From the map: the noise of the fixes would make their spread, and so the lever, look longer.
+    const Vec3 lever_map = w.p_map[i] - w.centre_map;
+    const Eigen::Vector2d r = (fit.T_map_enu.q.conjugate() * lever_map).head<2>();
     const Eigen::Matrix2d C = pairs[i].covariance.topLeftCorner<2, 2>();
     const Eigen::Vector2d tangent(-r.y(), r.x());
     squares += r.squaredNorm();
@@ -87,7 +85,7 @@ Fit fit(const std::vector<Pair>& pairs) {
   out.T_map_enu = cambium::fit_yaw(w.p_map, w.p_enu, w.weight);
   std::vector<double> dz;
   for (const Pair& pair : pairs) dz.push_back(pair.p_map.z() - pair.p_enu.z());
-  out.T_map_enu.t.z() = median(dz);
+  out.T_map_enu.t.z() = cambium::median(dz);
   measure_residuals(pairs, out);
   propagate(pairs, w, out);
   return out;

@@ -185,7 +185,8 @@ TEST(MissionFolder, DamagedCloudsSayWhatWasExpected) {
   expect(refusal(pcd_head + "DATA binary\n" + bytes<float>(std::vector<float>(9, 1.f))), "holds 3");
   expect(refusal(pcd_head + "DATA ascii\n1 2 3\n"), "promises 2 points, the file holds 1");
   expect(refusal(pcd_head + "DATA ascii\n1 2 3\n1 2 3\n1 2 3\n"), "holds 3");
-  expect(refusal(pcd_head + "DATA ascii\n1 2 3\n4 five 6\n"), "damaged");
+  expect(refusal(pcd_head + "DATA ascii\n1 2 3\n4 five 6\n"), "point 2 is not of 3 numbers");
+  expect(refusal(ply_head + "1 2 3\n4 5\n", ".ply"), "point 2 is not of 3 numbers");
   expect(refusal(pcd_head + "DATA binary_compressed\n" + bytes<std::uint32_t>({25, 24}) + "abc"),
          "damaged");
   expect(refusal(pcd_head + "DATA binary_compressed\n"), "damaged");

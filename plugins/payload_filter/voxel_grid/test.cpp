@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -56,9 +57,10 @@ TEST(VoxelGrid, OnePointPerVoxelAndInsideIt) {
   const Cloud out = filtered("{size: 0.5}", cloud);
   const auto voxels = [](const Cloud& c) {
     std::vector<std::array<int, 3>> cells;
-    for (const auto p : c.points().colwise())
-      cells.push_back({int(std::floor(p.x() / 0.5f)), int(std::floor(p.y() / 0.5f)),
-                       int(std::floor(p.z() / 0.5f))});
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const auto cell = [&](std::size_t k) { return int(std::floor(c.xyz[3 * i + k] / 0.5f)); };
+      cells.push_back({cell(0), cell(1), cell(2)});
+    }
     std::sort(cells.begin(), cells.end());
     return cells;
   };

@@ -125,7 +125,8 @@ double distance_by_definition(const Cloud& query, const Cloud& reference, int ri
   const auto describe = [&](const Cloud& cloud) {
     std::vector<std::vector<double>> columns(std::size_t(sectors),
                                              std::vector<double>(std::size_t(rings), 0.0));
-    for (const auto p : cloud.points().colwise()) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Eigen::Vector3f p = cloud.points().col(Eigen::Index(i));
       const double range = std::hypot(double(p.x()), double(p.y()));
       double turns = std::atan2(double(p.y()), double(p.x())) / (2 * pi);
       if (turns < 0) turns += 1;

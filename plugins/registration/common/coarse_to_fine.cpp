@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/coarse_to_fine.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 namespace cambium::registration {
@@ -21,7 +22,11 @@ std::string too_few(const char* which, std::size_t found, int needed) {
 }  // namespace
 
 Level CoarseToFine::make_level(const Cloud& cloud, double voxel_size) const {
-  Level level{make_surface(thin(cloud, voxel_size), neighbours_), nullptr, 0};
+  Level level;
+  level.surface = make_surface(thin(cloud, voxel_size), neighbours_);
+  level.sample = sample(*level.surface.points, std::size_t(source_points_));
+  level.spacing = voxel_size * std::sqrt(double(level.surface.size()) /
+                                         double(std::max<std::size_t>(level.sample->size(), 1)));
   if (level.surface.size() >= std::size_t(min_points_)) extend(level, voxel_size);
   return level;
 }
@@ -35,7 +40,7 @@ Prepared CoarseToFine::prepare(const Payload& payload, const Context& context) c
   prepared->fine = make_level(cloud, voxel_size_);
   std::size_t bytes = sizeof(PreparedCloud);
   for (const Level* level : {&prepared->coarse, &prepared->fine})
-    bytes += level->surface.bytes() + level->extra_bytes;
+    bytes += level->surface.bytes() + level->sample->size() * sizeof(Point) + level->extra_bytes;
   return {payload, prepared, bytes};
 }
 
@@ -48,12 +53,12 @@ std::optional<SE3> CoarseToFine::best_coarse(const PreparedCloud& target,
                     10 * translation_epsilon_, 10 * rotation_epsilon_};
   std::optional<SE3> best;
   double best_overlap = -1;
-  for (const SE3& start : search(target.coarse.surface, source.coarse.surface, guess, window)) {
+  for (const SE3& start : search(target.coarse.surface, *source.coarse.sample, guess, window)) {
     context.check_cancelled();
     const std::optional<SE3> T = refine(target.coarse, source.coarse, start, stage);
     if (!T || !T->finite()) continue;
     const double overlap =
-        evaluate(target.coarse.surface, source.coarse.surface, *T, coarse_voxel_size_).overlap;
+        evaluate(target.coarse.surface, *source.coarse.sample, *T, coarse_voxel_size_).overlap;
     if (overlap > best_overlap) {
       best_overlap = overlap;
       best = T;
@@ -62,13 +67,12 @@ std::optional<SE3> CoarseToFine::best_coarse(const PreparedCloud& target,
   return best;
 }
 
-void CoarseToFine::judge(const Surface& target, const Surface& source,
-                         Alignment& alignment) const {
-  const Quality quality = evaluate(target, source, alignment.T_target_source, overlap_distance_);
+void CoarseToFine::judge(const Level& target, const Level& source, Alignment& alignment) const {
+  const Quality quality =
+      evaluate(target.surface, *source.sample, alignment.T_target_source, overlap_distance_);
   alignment.scores = {{"overlap", quality.overlap}, {"rmse", quality.rmse}};
-  alignment.information =
-      information(quality, {sigma_translation_floor_, sigma_rotation_floor_, correlation_length_,
-                            voxel_size_});
+  alignment.information = information(quality, {sigma_translation_floor_, sigma_rotation_floor_,
+                                                correlation_length_, source.spacing});
   if (quality.overlap < min_overlap_)
     alignment.reason = compare("overlap", quality.overlap, "below min_overlap", min_overlap_);
   else if (quality.rmse > max_rmse_)
@@ -100,7 +104,7 @@ Alignment CoarseToFine::align(const Prepared& target, const Prepared& source,
     return alignment;
   }
   alignment.T_target_source = *T;
-  judge(t.fine.surface, s.fine.surface, alignment);
+  judge(t.fine, s.fine, alignment);
   return alignment;
 }
 

@@ -16,7 +16,9 @@ namespace cambium::registration {
 
 /// One resolution of a prepared cloud.
 struct Level {
-  Surface surface;
+  Surface surface;                    ///< as a target: all points
+  Points::Ptr sample;                 ///< as a source: evenly fewer, since every one costs a search
+  double spacing = 0;                 ///< of the sample along a surface [m]
   std::shared_ptr<const void> extra;  ///< the method's own
   std::size_t extra_bytes = 0;
 };
@@ -39,15 +41,17 @@ class CoarseToFine : public Registration {
   void params(ParamVisitor& v) override;
   std::string check_params() const override;
   Prepared prepare(const Payload& payload, const Context& context) const override;
-  Alignment align(const Prepared& target, const Prepared& source,
-                  const SE3& T_target_source_guess, const Context& context) const override;
+  Alignment align(const Prepared& target, const Prepared& source, const SE3& T_target_source_guess,
+                  const Context& context) const override;
 
  protected:
+  /// For methods that pair points: params() of such a method calls this too.
+  void correspondence_params(ParamVisitor& v);
   /// T_target_source near the guess, or nothing when the optimiser gave up.
   virtual std::optional<SE3> refine(const Level& target, const Level& source, const SE3& guess,
                                     const Stage& stage) const = 0;
   /// Computes what the method wants per cloud besides points, normals and tree.
-  virtual void extend(Level&, double /*voxel_size*/) const {}
+  virtual void extend(Level& /*level*/, double /*voxel_size*/) const {}
 
   double voxel_size_ = 0.4;
   double coarse_voxel_size_ = 1.0;
@@ -62,13 +66,14 @@ class CoarseToFine : public Registration {
   Level make_level(const Cloud& cloud, double voxel_size) const;
   std::optional<SE3> best_coarse(const PreparedCloud& target, const PreparedCloud& source,
                                  const SE3& guess, const Context& context) const;
-  void judge(const Surface& target, const Surface& source, Alignment& alignment) const;
+  void judge(const Level& target, const Level& source, Alignment& alignment) const;
 
   double search_radius_ = 10.0;
   double search_height_ = 1.0;
   double search_yaw_ = 0.1;
   double search_step_ = 1.0;
   int hypotheses_ = 3;
+  int source_points_ = 4000;
   double overlap_distance_ = 0.5;
   double min_overlap_ = 0.5;
   double max_rmse_ = 0.2;

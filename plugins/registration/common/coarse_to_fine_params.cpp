@@ -8,12 +8,7 @@ void CoarseToFine::params(ParamVisitor& v) {
   v("coarse_voxel_size", coarse_voxel_size_, "Cell of the cloud that the starts are refined on",
     above(0.0, "m"));
   v("neighbours", neighbours_, "Nearest points that a normal is fitted to", between(4, 200));
-  v("max_correspondence_distance", max_correspondence_distance_,
-    "Points farther apart do not pull on each other, on the fine cloud", above(0.0, "m"));
-  v("coarse_correspondence_distance", coarse_correspondence_distance_,
-    "The same on the coarse cloud: about the error of the best start", above(0.0, "m"));
-  v("max_iterations", max_iterations_, "Of the optimiser, per cloud and start",
-    between(1, 10000));
+  v("max_iterations", max_iterations_, "Of the optimiser, per cloud and start", between(1, 10000));
   v("translation_epsilon", translation_epsilon_, "The optimiser stops below this step",
     above(0.0, "m"));
   v("rotation_epsilon", rotation_epsilon_, "The optimiser stops below this step",
@@ -27,6 +22,8 @@ void CoarseToFine::params(ParamVisitor& v) {
     between(0.0, 3.15, "rad"));
   v("search_step", search_step_, "Grid of the search", above(0.0, "m"));
   v("hypotheses", hypotheses_, "How many distinct starts are refined", between(1, 100));
+  v("source_points", source_points_,
+    "At most this many points of the source are matched, on either cloud", between(100, 1e7));
   v("overlap_distance", overlap_distance_,
     "A source point with a target point within this distance counts as overlapping",
     above(0.0, "m"));
@@ -42,9 +39,15 @@ void CoarseToFine::params(ParamVisitor& v) {
     "Residuals of points nearer to each other count as one observation", above(0.0, "m"));
 }
 
+void CoarseToFine::correspondence_params(ParamVisitor& v) {
+  v("max_correspondence_distance", max_correspondence_distance_,
+    "Points farther apart do not pull on each other, on the fine cloud", above(0.0, "m"));
+  v("coarse_correspondence_distance", coarse_correspondence_distance_,
+    "The same on the coarse cloud: about the error of the best start", above(0.0, "m"));
+}
+
 std::string CoarseToFine::check_params() const {
-  if (coarse_voxel_size_ < voxel_size_)
-    return "coarse_voxel_size must be at least voxel_size";
+  if (coarse_voxel_size_ < voxel_size_) return "coarse_voxel_size must be at least voxel_size";
   if (coarse_correspondence_distance_ < max_correspondence_distance_)
     return "coarse_correspondence_distance must be at least max_correspondence_distance";
   if (neighbours_ > min_points_) return "neighbours must be at most min_points";

@@ -15,7 +15,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Quality evaluate(const Surface& target, const Surface& source, const SE3& T_target_source,
+Quality evaluate(const Surface& target, const Points& source, const SE3& T_target_source,
                  double distance) {
   Quality quality;
   const Eigen::Matrix3d R = T_target_source.rotation();
@@ -24,7 +24,7 @@ Quality evaluate(const Surface& target, const Surface& source, const SE3& T_targ
   double sum = 0;
   pcl::Indices near(1);
   std::vector<float> squared(1);
-  for (const Point& point : *source.points) {
+  for (const Point& point : source) {
     const Eigen::Vector3d p_source = point.getVector3fMap().cast<double>();
     const Eigen::Vector3d p = R * p_source + t;
     Point query;
@@ -57,12 +57,12 @@ Mat6 information(const Quality& quality, const NoiseModel& noise) {
       Eigen::Vector3d::Constant(noise.rotation_floor);
   // (A^-1 + S)^-1 with S = floor^2, without inverting A, which may be singular: in units of the
   // floor it is B (B + I)^-1, and the eigenvalues of B show which directions are held.
-  const Eigen::Matrix<double, 6, 6> B = floor.asDiagonal() *
-                                        (quality.normal_equations * (independent_share / variance)) *
-                                        floor.asDiagonal();
+  const Eigen::Matrix<double, 6, 6> B =
+      floor.asDiagonal() * (quality.normal_equations * (independent_share / variance)) *
+      floor.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(B);
-  const Eigen::Matrix<double, 6, 1> held = eigen.eigenvalues().unaryExpr(
-      [](double b) { return std::max(b / (1 + b), 1e-6); });
+  const Eigen::Matrix<double, 6, 1> held =
+      eigen.eigenvalues().unaryExpr([](double b) { return std::max(b / (1 + b), 1e-6); });
   const Eigen::Matrix<double, 6, 6> scaled =
       eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose();
   const Eigen::Matrix<double, 6, 1> inverse = floor.cwiseInverse();

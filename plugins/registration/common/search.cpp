@@ -14,28 +14,22 @@ struct Scored {
   SE3 T_target_source;
 };
 
-// -n..n steps that reach at least to `limit`.
-std::vector<double> offsets(double limit, double step) {
-  const int n = int(std::ceil(limit / step - 1e-9));
-  std::vector<double> values;
-  for (int i = -n; i <= n; ++i) values.push_back(i * step);
-  return values;
-}
+int steps(double limit, double step) { return int(std::ceil(limit / step - 1e-9)); }
 
 // Scores every translation of the window for one yaw; the points are turned once.
 void score_translations(const Occupancy& grid, const Eigen::Matrix3Xf& points, const SE3& start,
                         const SearchWindow& window, std::vector<Scored>& scored) {
-  const Eigen::Matrix3Xf turned =
-      (start.rotation().cast<float>() * points).colwise() + Eigen::Vector3f(start.t.cast<float>());
-  const std::vector<double> across = offsets(window.radius, window.step);
-  const std::vector<double> up = offsets(window.height, window.step);
-  for (const double x : across)
-    for (const double y : across) {
-      if (x * x + y * y > window.radius * window.radius + 1e-9) continue;
-      for (const double z : up) {
+  const std::vector<std::int32_t> places = grid.places(
+      (start.rotation().cast<float>() * points).colwise() + Eigen::Vector3f(start.t.cast<float>()));
+  const int across = steps(window.radius, window.step);
+  const int up = steps(window.height, window.step);
+  for (int x = -across; x <= across; ++x)
+    for (int y = -across; y <= across; ++y) {
+      if (x * x + y * y > across * across) continue;
+      for (int z = -up; z <= up; ++z) {
         SE3 T = start;
-        T.t += Vec3(x, y, z);
-        scored.push_back({grid.score(turned, Eigen::Vector3f(float(x), float(y), float(z))), T});
+        T.t += window.step * Vec3(x, y, z);
+        scored.push_back({grid.score(places, {x, y, z}), T});
       }
     }
 }
@@ -48,16 +42,19 @@ bool distinct(const SE3& a, const SE3& b, const SearchWindow& window) {
 
 }  // namespace
 
-std::vector<SE3> search(const Surface& target, const Surface& source, const SE3& guess,
+std::vector<SE3> search(const Surface& target, const Points& source, const SE3& guess,
                         const SearchWindow& window) {
   if (window.radius <= 0 && window.yaw <= 0) return {guess};
   const Eigen::Matrix3Xf standing_source = upright(source);
-  const Occupancy grid(upright(target), float(window.step));
   if (standing_source.cols() == 0) return {guess};
+  const int across = steps(window.radius, window.step);
+  const Occupancy grid(upright(*target.points), float(window.step),
+                       {across, across, steps(window.height, window.step)});
   std::vector<Scored> scored;
-  for (const double yaw : offsets(window.yaw, window.yaw_step)) {
+  const int turns = steps(window.yaw, window.yaw_step);
+  for (int turn = -turns; turn <= turns; ++turn) {
     SE3 start = guess;
-    start.q = SE3::from_yaw(yaw).q * guess.q;
+    start.q = SE3::from_yaw(turn * window.yaw_step).q * guess.q;
     score_translations(grid, standing_source, start, window, scored);
   }
   std::stable_sort(scored.begin(), scored.end(),

@@ -70,6 +70,13 @@ Points::Ptr thin(const Cloud& cloud, double voxel_size) {
   return out;
 }
 
+Points::Ptr sample(const Points& points, std::size_t limit) {
+  const std::size_t step = (points.size() + limit - 1) / limit;
+  auto out = std::make_shared<Points>();
+  for (std::size_t i = 0; i < points.size(); i += step) out->push_back(points[i]);
+  return out;
+}
+
 Surface make_surface(Points::Ptr points, int neighbours) {
   if (points->empty()) return {points, nullptr};
   auto tree = std::make_shared<Tree>();

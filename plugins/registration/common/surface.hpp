@@ -29,6 +29,10 @@ struct Surface {
 /// not depend on the order of the cloud beyond rounding.
 Points::Ptr thin(const Cloud& cloud, double voxel_size);
 
+/// Every k-th point, k the smallest number that leaves at most `limit`: `points` are ordered by
+/// cell, so this thins evenly.
+Points::Ptr sample(const Points& points, std::size_t limit);
+
 /// `points` with the normal of the plane through each one's `neighbours` nearest points.
 Surface make_surface(Points::Ptr points, int neighbours);
 

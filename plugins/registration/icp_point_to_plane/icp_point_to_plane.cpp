@@ -14,6 +14,7 @@ class IcpPointToPlane final : public CoarseToFine {
  public:
   void params(ParamVisitor& v) override {
     CoarseToFine::params(v);
+    correspondence_params(v);
     v("symmetric", symmetric_, "Use the normals of both clouds: a wider basin on curved surfaces");
   }
 
@@ -23,9 +24,9 @@ class IcpPointToPlane final : public CoarseToFine {
     pcl::IterativeClosestPointWithNormals<Point, Point> icp;
     icp.setUseSymmetricObjective(symmetric_);
     icp.setSearchMethodTarget(target.surface.tree, true);
-    icp.setSearchMethodSource(source.surface.tree, true);
+    icp.setSearchMethodSource(source.surface.tree, true);  // not used, and so not built
     icp.setInputTarget(target.surface.points);
-    icp.setInputSource(source.surface.points);
+    icp.setInputSource(source.sample);
     icp.setMaxCorrespondenceDistance(stage.max_correspondence_distance);
     icp.setMaximumIterations(stage.max_iterations);
     // PCL compares the squared step, and the cosine of the angle.

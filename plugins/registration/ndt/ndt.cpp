@@ -2,6 +2,8 @@
 // Normal distributions transform (Magnusson, thesis 2009) on pcl::NormalDistributionsTransform.
 #include <pcl/registration/ndt.h>
 
+#include <cmath>
+
 #include "common/coarse_to_fine.hpp"
 #include "common/pcl.hpp"
 
@@ -15,7 +17,8 @@ class Ndt final : public CoarseToFine {
   void params(ParamVisitor& v) override {
     CoarseToFine::params(v);
     v("cell_points", cell_points_,
-      "Cell of the distributions as a multiple of the cloud's voxel: about this squared points each",
+      "Cell of the distributions as a multiple of the cloud's voxel: about this squared points "
+      "each",
       between(2.0, 50.0));
     v("step_size", step_size_, "Longest step of one iteration, in cells of the distributions",
       between(0.01, 10.0));
@@ -38,11 +41,13 @@ class Ndt final : public CoarseToFine {
   std::optional<SE3> refine(const Level& target, const Level& source, const SE3& guess,
                             const Stage& stage) const override {
     Pcl ndt = *std::static_pointer_cast<const Pcl>(target.extra);
-    ndt.setInputSource(source.surface.points);
+    ndt.setInputSource(source.sample);
     ndt.setMaximumIterations(stage.max_iterations);
     ndt.setOulierRatio(outlier_ratio_);  // PCL's spelling
     ndt.setStepSize(step_size_ * cell_points_ * stage.voxel_size);
-    ndt.setTransformationEpsilon(stage.translation_epsilon);
+    // PCL compares the squared step, and the cosine of the angle.
+    ndt.setTransformationEpsilon(stage.translation_epsilon * stage.translation_epsilon);
+    ndt.setTransformationRotationEpsilon(std::cos(stage.rotation_epsilon));
     Points moved;
     ndt.align(moved, to_matrix(guess));
     if (!ndt.hasConverged()) return std::nullopt;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "cambium/plugin.hpp"
+#include "cambium/statistics.hpp"
+
+namespace cambium::bench {
+
+constexpr double degree = M_PI / 180;
+
+/// The pairs of one line of the table.
+struct Tally {
+  int pairs = 0, correct = 0, accepted = 0, wrong = 0;
+  std::vector<double> milliseconds, translation, rotation;
+
+  /// `truth` is T_target_source.
+  void add(const Alignment& a, const SE3& truth, double ms) {
+    const SE3 error = truth.inverse() * a.T_target_source;
+    const bool good = error.t.norm() < 0.5 && rotation_angle(error) < 5 * degree;
+    ++pairs;
+    correct += good;
+    accepted += a.converged && good;
+    wrong += a.converged && !good;
+    milliseconds.push_back(ms);
+    if (!good) return;
+    translation.push_back(error.t.norm());
+    rotation.push_back(rotation_angle(error) / degree);
+  }
+  void print(const std::string& label) const {
+    if (pairs == 0) return;
+    std::printf("| %-34s | %4d | %5.1f | %5.1f | %3d | %5.3f | %4.2f | %4.0f |\n", label.c_str(),
+                pairs, 100.0 * correct / pairs, 100.0 * accepted / pairs, wrong,
+                median(translation), median(rotation), median(milliseconds));
+    std::fflush(stdout);
+  }
+};
+
+}  // namespace cambium::bench
