@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every solver on every well-known pose graph:
-//   solvers POSE_GRAPHS [NAME=YAML]...
+//   bench_solvers POSE_GRAPHS [NAME=YAML]...
 // POSE_GRAPHS is the unpacked archive with REFERENCE.json. Without names: every solver, its
 // defaults.
 #include <chrono>
@@ -46,24 +46,22 @@ void bench(const std::string& set, const PoseGraph& graph, double reference, con
   std::fflush(stdout);
 }
 
+int run(int argc, char** argv) {
+  if (argc < 2) return std::fputs("usage: bench_solvers POSE_GRAPHS [NAME=YAML]...\n", stderr), 2;
+  const std::filesystem::path folder = argv[1];
+  const auto reference = nlohmann::json::parse(read_file(folder / "REFERENCE.json"));
+  std::printf("| %-14s | %-24s | iterations | seconds | %14s |  F/reference |\n", "set", "solver",
+              "F");
+  std::puts("|---|---|---:|---:|---:|---:|");
+  for (const char* set : {"tinyGrid3D", "smallGrid3D", "parking-garage", "sphere2500", "torus3D"}) {
+    const auto graph = pose_graph_from(read_g2o(folder / set / (std::string(set) + ".g2o")));
+    for (const auto& entry : entries(argc, argv))
+      bench(set, graph, reference.at(set).at("canon"), entry);
+  }
+  return 0;
+}
+
 }  // namespace
 }  // namespace cambium::testing
 
-int main(int argc, char** argv) {
-  using namespace cambium;
-  if (argc < 2) return std::fputs("usage: solvers POSE_GRAPHS [NAME=YAML]...\n", stderr), 2;
-  const std::filesystem::path folder = argv[1];
-  const auto reference = nlohmann::json::parse(read_file(folder / "REFERENCE.json"));
-  std::puts(
-      "| set            | solver                   | iterations | seconds |              F |  "
-      "F/reference |");
-  std::puts(
-      "|----------------|--------------------------|------------|---------|----------------|-------"
-      "-------|");
-  for (const char* set : {"tinyGrid3D", "smallGrid3D", "parking-garage", "sphere2500", "torus3D"}) {
-    const auto graph =
-        testing::pose_graph_from(read_g2o(folder / set / (std::string(set) + ".g2o")));
-    for (const auto& entry : testing::entries(argc, argv))
-      testing::bench(set, graph, reference.at(set).at("canon"), entry);
-  }
-}
+int main(int argc, char** argv) { return cambium::testing::run(argc, argv); }
