@@ -40,8 +40,20 @@ std::uint64_t binary_rows(std::istream& in, const CloudHeader& h, const Path& pa
   return (std::filesystem::file_size(path) - begin) / std::max<std::uint64_t>(1, h.bytes_per_point);
 }
 
+// The block begins with its two sizes, 32 bits each in the order of this machine. PCL trusts them.
+void check_compressed(std::istream& in, const CloudHeader& h, const Path& path) {
+  const auto rest = std::filesystem::file_size(path) - std::uint64_t(in.tellg());
+  std::uint32_t sizes[2] = {0, 0};
+  in.read(reinterpret_cast<char*>(sizes), sizeof sizes);
+  if (in && sizes[0] + sizeof sizes <= rest && sizes[1] == h.points * h.bytes_per_point) return;
+  refuse(path, "the compressed block is truncated or damaged, expected " +
+                   std::to_string(h.points) + " points of " + std::to_string(h.bytes_per_point) +
+                   " bytes");
+}
+
 void check_body(std::istream& in, const CloudHeader& h, const Path& path, bool may_hold_more) {
-  if (!h.sized || h.data == CloudHeader::Data::compressed) return;
+  if (!h.sized) return;
+  if (h.data == CloudHeader::Data::compressed) return check_compressed(in, h, path);
   const std::uint64_t found =
       h.data == CloudHeader::Data::ascii ? ascii_rows(in, h, path) : binary_rows(in, h, path);
   if (found < h.points || (found > h.points && !may_hold_more))

@@ -2,6 +2,7 @@
 // Mission folders through the real loader.
 #include <cmath>
 #include <cstring>
+#include <random>
 
 #include "cambium/dialect.hpp"
 #include "cambium/files.hpp"
@@ -188,8 +189,8 @@ TEST(MissionFolder, DamagedCloudsSayWhatWasExpected) {
   expect(refusal(pcd_head + "DATA ascii\n1 2 3\n4 five 6\n"), "point 2 is not of 3 numbers");
   expect(refusal(ply_head + "1 2 3\n4 5\n", ".ply"), "point 2 is not of 3 numbers");
   expect(refusal(pcd_head + "DATA binary_compressed\n" + bytes<std::uint32_t>({25, 24}) + "abc"),
-         "damaged");
-  expect(refusal(pcd_head + "DATA binary_compressed\n"), "damaged");
+         "truncated");
+  expect(refusal(pcd_head + "DATA binary_compressed\n"), "expected 2 points of 12 bytes");
   expect(refusal(pcd_head + "DATA zip\n"), "'zip'");
   expect(refusal(replaced(pcd_head, "POINTS 2", "POINTS 7") + "DATA ascii\n1 2 3\n1 2 3\n"),
          "says POINTS 7, but WIDTH x HEIGHT is 2");
@@ -202,6 +203,35 @@ TEST(MissionFolder, DamagedCloudsSayWhatWasExpected) {
   expect(refusal(replaced(ply_head, "ascii", "binary_little_endian") + "abc", ".ply"), "holds 0");
   expect(refusal("ply\nformat ascii 1.0\n", ".ply"), "no end_header");
   expect(refusal("solid", ".ply"), "does not begin with 'ply'");
+}
+
+// Whatever a disk does to a file: an error of the data or a cloud, never a crash.
+TEST(MissionFolder, RandomDamageNeverCrashes) {
+  const std::string by_field = bytes<float>({1, -4.5, 2, 5, 3, 6});
+  const std::pair<std::string, std::string> files[] = {
+      {"pcd", pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n"},
+      {"pcd", pcd_head + "DATA binary\n" + bytes(two_points)},
+      {"pcd",
+       pcd_head + "DATA binary_compressed\n" + bytes<std::uint32_t>({25, 24}) + '\x17' + by_field},
+      {"ply", ply_head + "1 2 3\n-4.5 5 6\n"},
+      {"ply", replaced(ply_head, "ascii", "binary_little_endian") + bytes(two_points)}};
+  std::mt19937 dice(7);
+  int refused = 0, read = 0;
+  for (int n = 0; n < 2000; ++n) {
+    auto [extension, content] = files[n % 5];
+    for (unsigned k = 1 + dice() % 3; k > 0; --k) {
+      const std::size_t at = dice() % content.size();
+      if (dice() % 4 == 0)
+        content.erase(at, 1 + dice() % 8);
+      else
+        content[at] = dice() % 2 ? char(dice() % 256) : char('0' + dice() % 10);
+    }
+    MissionOnDisk disk;
+    disk.cloud("cloud_10_000000005." + extension, content);
+    disk.refusal() == "accepted" ? ++read : ++refused;
+  }
+  EXPECT_GT(refused, 500);
+  EXPECT_GT(read, 100);
 }
 
 TEST(MissionFolder, FilesWithoutANodeAreWarnings) {
