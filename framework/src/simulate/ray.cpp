@@ -12,7 +12,11 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float slack = 1e-4f;  // of a hit beside the border of a column [m]
 
-/// Where the ray is within [low, high] along one axis.
+/// 1 / d; where d is 0, so large that a border is out of reach, but no infinity: 0 * infinity is
+/// NaN.
+float inverse(float d) { return d == 0 ? 1e30f : 1 / d; }
+
+/// Cuts [begin, end] down to where the ray is within [low, high] along one axis.
 void clip(float origin, float direction, float low, float high, float& begin, float& end) {
   if (direction == 0) {
     if (origin < low || origin > high) end = -1;
@@ -25,12 +29,13 @@ void clip(float origin, float direction, float low, float high, float& begin, fl
 
 }  // namespace
 
-/// The part of a ray within one column, from `begin` to `end` along it.
+/// The part of a ray within one column, from `begin` to `end` along it. x and y count from the
+/// scene's corner, so that a column is [ix, ix + 1] x [iy, iy + 1].
 struct Scene::Segment {
-  const Column& column;
   int ix, iy;
   Eigen::Vector3f entry, direction;
   float begin, end;
+  float lowest;  ///< height [m]
 };
 
 float Cone::hit(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
@@ -49,8 +54,8 @@ float Cone::hit(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction)
   return along >= 0 && along <= length ? t : -1;
 }
 
-void Scene::hit_cones(const Segment& s, Hit& hit) const {
-  for (std::uint32_t i = s.column.first; i < s.column.first + s.column.cones; ++i) {
+void Scene::hit_cones(const Column& column, const Segment& s, Hit& hit) const {
+  for (std::uint32_t i = column.first; i < column.first + column.cones; ++i) {
     const std::uint32_t index = cones_in_[i];
     const float t = cones_[index].hit(s.entry, s.direction);
     // Farther hits belong to the next column, where something else may be nearer.
@@ -65,11 +70,7 @@ void Scene::hit_ground(const Segment& s, Hit& hit) const {
   const auto row = std::size_t(s.iy) * std::size_t(nx_ + 1) + std::size_t(s.ix);
   const float h00 = ground_[row], h10 = ground_[row + 1];
   const float h01 = ground_[row + std::size_t(nx_) + 1], h11 = ground_[row + std::size_t(nx_) + 2];
-  const float length = s.end - s.begin;
-  const float exit_z = s.entry.z() + length * s.direction.z();
-  if (std::min(s.entry.z(), exit_z) > std::max({h00, h10, h01, h11})) return;
-  const float u = s.entry.x() - corner_.x() - float(s.ix);
-  const float v = s.entry.y() - corner_.y() - float(s.iy);
+  const float u = s.entry.x() - float(s.ix), v = s.entry.y() - float(s.iy);
   const float du = s.direction.x(), dv = s.direction.y();
   const float east = h10 - h00, north = h01 - h00, twist = h11 - h10 - h01 + h00;
   // Height over the bilinear ground: a t^2 + b t + c.
@@ -80,75 +81,67 @@ void Scene::hit_ground(const Segment& s, Hit& hit) const {
   if (c <= 0) {
     t = 0;  // the border of two columns, within rounding
   } else if (const float root = b * b - 4 * a * c; root >= 0) {
-    // The stable form; `sum` is not 0 where the ray comes down on the ground.
+    // The stable form of the smaller positive root; there is one when `sum` is positive.
     const float sum = -b + std::sqrt(root);
     if (sum > 0) t = 2 * c / sum;
   }
-  if (t > length + slack || s.begin + t >= hit.range) return;
+  if (t > s.end - s.begin + slack || s.begin + t >= hit.range) return;
   hit.range = s.begin + t;
   hit.surface = Surface::ground;
 }
 
-bool Scene::hit_leaves(const Segment& s, float& depth, Hit& hit) const {
-  const float stop = std::min(s.end, hit.range);
-  const float* const column =
+bool Scene::hit_leaves(const Column& column, const Segment& s, float& depth, Hit& hit) const {
+  const float stop = std::min(s.end, hit.range), z = s.entry.z() - layer_zero_;
+  const int up = s.direction.z() > 0;
+  const float per_layer = inverse(s.direction.z());
+  const float* const extinction =
       leaves_.data() + std::size_t(s.iy * nx_ + s.ix) * std::size_t(layers_);
-  const float dz = s.direction.z();
-  const int step = dz < 0 ? -1 : 1;
-  float z = s.entry.z() - layer_zero_;
-  int layer = int(std::floor(z));
-  for (float t = s.begin; t < stop; layer += step) {
-    const float border = float(layer + (dz < 0 ? 0 : 1));
-    const float next = dz == 0 ? stop : std::min(stop, s.begin + std::max(0.f, (border - z) / dz));
-    if (step > 0 ? layer >= s.column.leaf_end : layer < s.column.leaf_begin) return false;
-    if (layer >= s.column.leaf_begin && layer < s.column.leaf_end) {
-      const float used = column[layer] * (next - t);
+  int layer = z < 0 ? -1 : int(z);  // the ground is nowhere below layer 0
+  for (float t = s.begin; t < stop; layer += up ? 1 : -1) {
+    if (up ? layer >= column.leaf_end : layer < column.leaf_begin) return false;
+    const float border = (float(layer + up) - z) * per_layer;
+    const float next = std::clamp(s.begin + std::abs(border), t, stop);
+    if (layer >= column.leaf_begin && layer < column.leaf_end) {
+      const float used = extinction[layer] * (next - t);
       if (used > depth) {
-        hit.range = t + depth / column[layer];
+        hit.range = t + depth / extinction[layer];
         hit.surface = Surface::foliage;
         return true;
       }
       depth -= used;
     }
-    t = std::max(t, next);
-    if (dz == 0) break;
+    t = next;
   }
   return false;
 }
 
-Hit Scene::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float max_range,
-                float optical_depth) const {
+Hit Scene::cast(const Eigen::Vector3f& origin_world, const Eigen::Vector3f& direction,
+                float max_range, float optical_depth) const {
+  const Eigen::Vector3f origin(origin_world.x() - corner_.x(), origin_world.y() - corner_.y(),
+                               origin_world.z());
   float begin = 0, end = max_range;
-  clip(origin.x() - corner_.x(), direction.x(), 0, float(nx_), begin, end);
-  clip(origin.y() - corner_.y(), direction.y(), 0, float(ny_), begin, end);
+  clip(origin.x(), direction.x(), 0, float(nx_), begin, end);
+  clip(origin.y(), direction.y(), 0, float(ny_), begin, end);
   clip(origin.z(), direction.z(), -infinity, top_, begin, end);
   Hit hit;
   hit.range = end + slack;
-  const Eigen::Vector2f start = origin.head<2>() + begin * direction.head<2>() - corner_;
-  int ix = std::clamp(int(start.x()), 0, nx_ - 1), iy = std::clamp(int(start.y()), 0, ny_ - 1);
-  const int step_x = direction.x() < 0 ? -1 : 1, step_y = direction.y() < 0 ? -1 : 1;
-  const auto border = [](float from, float d, int cell, int step, float c) {
-    return d == 0 ? infinity : (c + float(cell + (step > 0)) - from) / d;
-  };
+  int ix = std::clamp(int(origin.x() + begin * direction.x()), 0, nx_ - 1);
+  int iy = std::clamp(int(origin.y() + begin * direction.y()), 0, ny_ - 1);
+  const int east = direction.x() >= 0, north = direction.y() >= 0;
+  const float per_column = inverse(direction.x()), per_row = inverse(direction.y());
   while (begin < end && hit.surface == Surface::none) {
-    const float at_x = border(origin.x(), direction.x(), ix, step_x, corner_.x());
-    const float at_y = border(origin.y(), direction.y(), iy, step_y, corner_.y());
+    const float at_x = (float(ix + east) - origin.x()) * per_column;
+    const float at_y = (float(iy + north) - origin.y()) * per_row;
+    const float out = std::clamp(std::min(at_x, at_y), begin, end);
+    const float z = origin.z() + begin * direction.z();
+    const float z_out = origin.z() + out * direction.z();
+    const Segment s{ix, iy, origin + begin * direction, direction, begin, out, std::min(z, z_out)};
     const Column& column = columns_[std::size_t(iy * nx_ + ix)];
-    const Segment s{column,
-                    ix,
-                    iy,
-                    origin + begin * direction,
-                    direction,
-                    begin,
-                    std::clamp(std::min(at_x, at_y), begin, end)};
-    const float lowest = std::min(s.entry.z(), s.entry.z() + (s.end - begin) * direction.z());
-    if (lowest <= column.top) {
-      hit_ground(s, hit);
-      if (column.cones > 0) hit_cones(s, hit);
-    }
-    if (column.leaf_end > 0 && hit_leaves(s, optical_depth, hit)) break;
-    begin = s.end;
-    (at_x < at_y ? ix : iy) += at_x < at_y ? step_x : step_y;
+    if (s.lowest <= column.ground) hit_ground(s, hit);
+    if (column.cones > 0 && s.lowest <= column.top) hit_cones(column, s, hit);
+    if (column.leaf_end > 0 && hit_leaves(column, s, optical_depth, hit)) break;
+    begin = out;
+    (at_x < at_y ? ix : iy) += at_x < at_y ? 2 * east - 1 : 2 * north - 1;
     if (ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_) break;
   }
   return hit;

@@ -16,7 +16,7 @@ Scene::Scene(const Terrain& terrain, const std::vector<Stem>& stems,
       stem_count_(stems.size()) {
   for (int iy = 0; iy < ny_; ++iy)
     for (int ix = 0; ix < nx_; ++ix)
-      columns_[std::size_t(iy * nx_ + ix)].top =
+      columns_[std::size_t(iy * nx_ + ix)].ground =
           std::max({terrain.at(ix, iy), terrain.at(ix + 1, iy), terrain.at(ix, iy + 1),
                     terrain.at(ix + 1, iy + 1)});
   add_cones(stems);
@@ -24,13 +24,15 @@ Scene::Scene(const Terrain& terrain, const std::vector<Stem>& stems,
   index_cones();
   take_foliage(foliage);
   for (const Column& c : columns_)
-    top_ = std::max({top_, c.top, layer_zero_ + float(c.leaf_end) * float(Terrain::cell)});
+    top_ =
+        std::max({top_, c.ground, c.top, layer_zero_ + float(c.leaf_end) * float(Terrain::cell)});
 }
 
 void Scene::add_cones(const std::vector<Stem>& stems) {
+  const Vec3 corner(corner_.x(), corner_.y(), 0);
   for (const Stem& s : stems)
-    cones_.push_back(
-        {s.base.cast<float>(), s.axis.cast<float>(), float(s.radius_at(0)), float(s.height)});
+    cones_.push_back({(s.base - corner).cast<float>(), s.axis.cast<float>(), float(s.radius_at(0)),
+                      float(s.height)});
 }
 
 void Scene::index_cones() {
@@ -42,7 +44,7 @@ void Scene::index_cones() {
     for (float s = 0; s <= cone.length + step; s += step) {
       const float along = std::min(s, cone.length);
       const Eigen::Vector3f center = cone.base + along * cone.axis;
-      const Eigen::Vector2f p = center.head<2>() - corner_;
+      const Eigen::Vector2f p = center.head<2>();
       const float reach = cone.radius + 0.5f * step * cone.axis.head<2>().norm() + 1e-3f;
       for (int iy = int(std::floor(p.y() - reach)); iy <= int(std::floor(p.y() + reach)); ++iy)
         for (int ix = int(std::floor(p.x() - reach)); ix <= int(std::floor(p.x() + reach)); ++ix) {

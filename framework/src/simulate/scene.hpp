@@ -43,21 +43,22 @@ class Scene {
     std::uint32_t first = 0;  ///< into cones_in_
     std::uint16_t cones = 0;
     std::uint16_t leaf_begin = 0, leaf_end = 0;  ///< layers with foliage
-    float top = 0;                               ///< of ground and cones [m]
+    float ground = 0;                            ///< highest of the ground [m]
+    float top = 0;                               ///< highest of the cones [m]
   };
   struct Segment;
   void add_cones(const std::vector<Stem>& stems);
   void index_cones();
   void take_foliage(const Foliage& foliage);
   void hit_ground(const Segment& s, Hit& hit) const;
-  void hit_cones(const Segment& s, Hit& hit) const;
-  bool hit_leaves(const Segment& s, float& depth, Hit& hit) const;
+  void hit_cones(const Column& column, const Segment& s, Hit& hit) const;
+  bool hit_leaves(const Column& column, const Segment& s, float& depth, Hit& hit) const;
 
   Eigen::Vector2f corner_;
   int nx_, ny_;
   std::vector<float> ground_;  ///< (nx + 1) x (ny + 1)
   std::vector<Column> columns_;
-  std::vector<Cone> cones_;  ///< stems, then clutter
+  std::vector<Cone> cones_;  ///< stems, then clutter; x and y from the corner
   std::vector<std::uint32_t> cones_in_;
   std::size_t stem_count_;
   float layer_zero_ = 0;  ///< height of the lowest layer of foliage [m]
