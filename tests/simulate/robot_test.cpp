@@ -38,7 +38,7 @@ TEST(Path, NodesAreEquallySpacedAndFaceForward) {
     const Vec3 expected = Vec3(1, 2, 1.6) + (2.0 * double(i) - 50) * forward + 5 * left;
     EXPECT_LT((poses[i].T_world_base.t - expected).norm(), 1e-9);
     EXPECT_NEAR(poses[i].T_world_base.yaw(), a, 1e-9);
-    if (i > 0) EXPECT_GT(poses[i].time, poses[i - 1].time);
+    EXPECT_TRUE(i == 0 || poses[i].time > poses[i - 1].time);
   }
 }
 
