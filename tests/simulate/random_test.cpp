@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-#include "simulate/stand.hpp"
+#include "simulate/diameters.hpp"
 
 namespace cambium::simulate {
 namespace {

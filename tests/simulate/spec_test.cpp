@@ -57,5 +57,23 @@ TEST(Spec, CommittedSchemaIsThatOfTheCode) {
       << "run: cambium simulate --schema > schemas/simulate.schema.json";
 }
 
+// Every key with its default and its meaning stands in a table of the documentation.
+void expect_rows(const nlohmann::ordered_json& properties, const std::string& page) {
+  for (const auto& [key, schema] : properties.items()) {
+    if (schema.contains("properties")) expect_rows(schema["properties"], page);
+    if (!schema.contains("default")) continue;
+    const std::string row = "| `" + key + "` | " + schema["default"].dump() + " | " +
+                            schema["description"].get<std::string>() + " |\n";
+    EXPECT_NE(page.find(row), std::string::npos) << "docs/simulate.md lacks\n" << row;
+  }
+}
+
+TEST(Spec, DocumentationNamesEveryKey) {
+  const std::string page = read_file(CAMBIUM_SOURCE_DIR "/docs/simulate.md");
+  const auto schema = spec_schema()["properties"];
+  expect_rows(schema, page);
+  expect_rows(schema["missions"]["items"]["properties"], page);
+}
+
 }  // namespace
 }  // namespace cambium::simulate

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cambium/error.hpp"
 #include "simulate/angles.hpp"
+#include "simulate/diameters.hpp"
 #include "simulate/pattern.hpp"
 
 namespace cambium::simulate {
@@ -106,6 +108,20 @@ TEST(Stand, DiametersHeightsAndLeanAreThoseAskedFor) {
   EXPECT_NEAR(std::sqrt(squares / n - mean * mean), 0.094, 0.004);
   EXPECT_NEAR(std::sqrt(lean / n), radians(2), radians(0.08));
   EXPECT_NEAR(height / n, 0, 0.1);
+}
+
+TEST(Stand, ThickTreesKeepTheirDistanceAndTheDiametersStayTheSame) {
+  StandSpec s;
+  auto stems = plant(s, level_ground(s), 3);
+  s.dominance = 0;
+  auto by_chance = plant(s, level_ground(s), 3);
+  const auto thickest = [](std::vector<Stem>& all) {
+    std::sort(all.begin(), all.end(), [](const Stem& a, const Stem& b) { return a.dbh > b.dbh; });
+    return std::vector<Stem>(all.begin(), all.begin() + std::ptrdiff_t(all.size() / 3));
+  };
+  EXPECT_GE(least_distance(thickest(stems)), 2.8);
+  EXPECT_LT(least_distance(thickest(by_chance)), 2);
+  for (std::size_t i = 0; i < stems.size(); ++i) EXPECT_EQ(stems[i].dbh, by_chance[i].dbh);
 }
 
 TEST(Stand, NaslundGolden) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "cambium/error.hpp"
@@ -94,25 +93,6 @@ std::vector<Place> clustered(const StandSpec& s, std::uint64_t seed) {
 }
 
 }  // namespace
-
-std::vector<Place> thinned(const std::vector<Place>& points, double hard_core) {
-  const auto cell_of = [&](double v) { return std::int64_t(std::floor(v / hard_core)); };
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<const Place*>> cells;
-  for (const Place& p : points) cells[{cell_of(p.x), cell_of(p.y)}].push_back(&p);
-  const auto stays = [&](const Place& p) {
-    for (std::int64_t dx = -1; dx <= 1; ++dx)
-      for (std::int64_t dy = -1; dy <= 1; ++dy) {
-        const auto it = cells.find({cell_of(p.x) + dx, cell_of(p.y) + dy});
-        if (it == cells.end()) continue;
-        for (const Place* q : it->second)
-          if (q->mark < p.mark && std::hypot(q->x - p.x, q->y - p.y) < hard_core) return false;
-      }
-    return true;
-  };
-  std::vector<Place> out;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(out), stays);
-  return out;
-}
 
 std::vector<Place> poisson_places(const std::vector<double>& size, double density,
                                   std::uint64_t seed, std::string_view purpose) {

@@ -39,6 +39,8 @@ void StandSpec::params(ParamVisitor& v) {
   v("dbh_mean", dbh_mean, "Mean diameter at breast height", between(0.03, 2, "m"));
   v("dbh_sd", dbh_sd, "Its standard deviation; the distribution is Weibull's",
     between(0.001, 1, "m"));
+  v("dominance", dominance, "The thickest trees keep this distance from one another; 0 = chance",
+    between(0, 20, "m"));
   v("naslund_a", naslund_a, "height = 1.3 + d^2 / (a + b d)^2 with d in cm (Naslund 1936)",
     between(0, 10));
   v("naslund_b", naslund_b, "See naslund_a", between(0.05, 1));

@@ -19,7 +19,7 @@ struct StandSpec : Component {
   std::vector<double> size{100, 100};
   std::string pattern = "matern";
   double density = 940, hard_core = 1.1, jitter = 0, cluster_radius = 4, cluster_size = 8;
-  double dbh_mean = 0.166, dbh_sd = 0.094;
+  double dbh_mean = 0.166, dbh_sd = 0.094, dominance = 2.8;
   double naslund_a = 1.2, naslund_b = 0.19, height_sd = 1;
   double lean = 2;
   std::vector<double> clearings;
@@ -79,8 +79,8 @@ struct GnssSpec : Component {
 
 struct TreesSpec : Component {
   bool enabled = false;
-  double max_range = 32, min_dbh = 0.13, position_noise = 0.025, height_noise = 0.25;
-  double dbh_noise = 0.035, axis_noise = 5, spurious = 20;
+  double max_range = 32, min_dbh = 0.18, position_noise = 0.025, height_noise = 0.25;
+  double dbh_noise = 0.035, axis_noise = 5, spurious = 12;
   void params(ParamVisitor& v) override;
 };
 

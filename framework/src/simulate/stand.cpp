@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulate/angles.hpp"
+#include "simulate/diameters.hpp"
 #include "simulate/pattern.hpp"
 #include "simulate/random.hpp"
 
@@ -12,7 +13,6 @@ namespace cambium::simulate {
 namespace {
 
 constexpr double breast_height = 1.3;  // [m]
-constexpr double thinnest = 0.02;      // a stem of which a lidar may see anything [m]
 
 Vec3 on_ground(const Terrain& terrain, const Place& p) {
   return {p.x, p.y, terrain.height(p.x, p.y)};
@@ -26,37 +26,20 @@ double Stem::radius_at(double along) const {
   return 0.5 * dbh * std::max(0.0, (height - along) / (height - reference));
 }
 
-Weibull weibull_from(double mean, double sd) {
-  // (sd / mean)^2 = G(1 + 2/k) / G(1 + 1/k)^2 - 1 falls with the shape k.
-  const auto spread = [](double k) {
-    return std::exp(std::lgamma(1 + 2 / k) - 2 * std::lgamma(1 + 1 / k)) - 1;
-  };
-  double low = 0.3, high = 300;
-  for (int i = 0; i < 100; ++i) {
-    const double k = 0.5 * (low + high);
-    (spread(k) > (sd / mean) * (sd / mean) ? low : high) = k;
-  }
-  return {low, mean / std::exp(std::lgamma(1 + 1 / low))};
-}
-
-double naslund_height(double dbh, double a, double b) {
-  const double d = 100 * dbh;  // the formula takes centimetres
-  return breast_height + d * d / ((a + b * d) * (a + b * d));
-}
-
 std::vector<Stem> plant(const StandSpec& s, const Terrain& terrain, std::uint64_t seed) {
-  const Weibull diameters = weibull_from(s.dbh_mean, s.dbh_sd);
+  const std::vector<Place> places = stem_places(s, seed);
+  const std::vector<double> dbh = diameters(s, places, seed);
   std::vector<Stem> out;
-  for (const Place& place : stem_places(s, seed)) {
-    Random r(seed, "stem", place.mark);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Random r(seed, "stem", places[i].mark);
     Stem stem;
-    stem.base = on_ground(terrain, place);
-    stem.dbh = std::max(thinnest, r.weibull(diameters.shape, diameters.scale));
+    stem.base = on_ground(terrain, places[i]);
+    stem.dbh = dbh[i];
     stem.height = std::max(
         2.0, naslund_height(stem.dbh, s.naslund_a, s.naslund_b) + s.height_sd * r.normal());
     const double about_x = r.normal(), about_y = r.normal();
     stem.axis = leaning(radians(s.lean) * about_x, radians(s.lean) * about_y);
-    stem.mark = place.mark;
+    stem.mark = places[i].mark;
     out.push_back(stem);
   }
   return out;

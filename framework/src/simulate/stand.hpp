@@ -18,14 +18,6 @@ struct Stem {
   double radius_at(double along) const;  ///< distance from the base along the axis [m]
 };
 
-/// Shape and scale of Weibull's distribution with this mean and standard deviation.
-struct Weibull {
-  double shape, scale;
-};
-Weibull weibull_from(double mean, double sd);
-
-double naslund_height(double dbh, double a, double b);  ///< [m]
-
 std::vector<Stem> plant(const StandSpec& spec, const Terrain& terrain, std::uint64_t seed);
 
 /// Snags, shrubs and poles: short, thin, leaning. They are in no stem map.

@@ -38,8 +38,8 @@ class Detector {
     if (luck < thick * reconstruction_range(range, spec_.max_range)) {
       add(s, r, true);
       table.stems.push_back(s.mark);
-    } else if (Random(s.mark, "seen").uniform() + 0.1 * r.normal() <
-               0.45 * detection_range(range, spec_.max_range)) {
+    } else if (Random(s.mark, "seen").uniform() + 0.03 * r.normal() <
+               0.35 * detection_range(range, spec_.max_range)) {
       add(s, r, false);
       table.stems.push_back(s.mark);
     }
@@ -49,8 +49,8 @@ class Detector {
     const double range = range_of(s.base);
     if (range > spec_.max_range) return;
     Random r = node_.fork(s.mark);
-    if (Random(s.mark, "seen").uniform() + 0.1 * r.normal() <
-        0.6 * detection_range(range, spec_.max_range))
+    if (Random(s.mark, "seen").uniform() + 0.03 * r.normal() <
+        0.55 * detection_range(range, spec_.max_range))
       add(s, r, false);
   }
 
