@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of a simulated detector against those of the real one: three missions at Evo, every
-// fourth node of the first one. The bounds are what separates real missions from each other.
+// The tables of a simulated detector against those of a real one: every fourth node of the first of
+// three missions at Evo.
 #include "simulate/tree_table.hpp"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST(TreeTable, ReconstructedStemsAreFoundAgainTheOthersLessOften) {
       if (tree.reconstructed && best < 0.5) error += best;
     }
   }
-  EXPECT_GT(again[1] / of[1], 0.94);          // real: 0.99
+  EXPECT_GT(again[1] / of[1], 0.94);          // real: 0.95 to 0.99
   EXPECT_NEAR(again[0] / of[0], 0.72, 0.15);  // real: 0.87 after 1.5 m, 0.64 after 29 m
   EXPECT_NEAR(error / again[1], 0.04, 0.02);  // real: median 0.032
 }
@@ -109,7 +109,7 @@ TEST(TreeTable, AboutHalfOfTheOtherDetectionsAreNoTree) {
     for (const Tree& tree : t.trees) others += !tree.reconstructed;
     no_tree += double(t.trees.size()) - double(t.stems.size());
   }
-  EXPECT_NEAR(no_tree / others, 0.6, 0.2);
+  EXPECT_NEAR(no_tree / others, 0.5, 0.15);
 }
 
 TEST(TreeTable, NothingBeyondTheRangeAndAxesPointUp) {
