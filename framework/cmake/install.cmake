@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cambium)
 install(TARGETS cambium EXPORT cambiumTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS cambium_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY include/cambium DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY include/cambium ${CAMBIUM_GENERATED_INCLUDE}/cambium DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT cambiumTargets NAMESPACE cambium:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/cambiumConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfig.cmake
                               INSTALL_DESTINATION ${package_dir})

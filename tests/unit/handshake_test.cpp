@@ -37,7 +37,8 @@ TEST(Handshake, refuses_each_field_by_name_with_both_values) {
       {"eigen_max_align", &AbiStamp::eigen_max_align},
       {"heap_align", &AbiStamp::heap_align},
       {"eigen_malloc", &AbiStamp::eigen_malloc},
-      {"sanitizer", &AbiStamp::sanitizer}};
+      {"sanitizer", &AbiStamp::sanitizer},
+      {"headers", &AbiStamp::headers}};
   // A field that is added to the stamp must be compared, too.
   static_assert(sizeof(AbiStamp) == std::size(fields) * sizeof(std::uint32_t));
   for (const auto& [name, field] : fields) {

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "cambium/api_digest.hpp"
+
 namespace cambium {
 
 inline constexpr std::uint32_t api_major = 0;  ///< another major version is refused
@@ -26,6 +28,7 @@ struct AbiStamp {
   std::uint32_t heap_align;         ///< alignof(std::max_align_t)
   std::uint32_t eigen_malloc;       ///< EIGEN_MALLOC_ALREADY_ALIGNED
   std::uint32_t sanitizer;          ///< bit 0 address, bit 1 thread
+  std::uint32_t headers;            ///< api_digest: what the public headers declare
 };
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -51,7 +54,8 @@ static constexpr AbiStamp this_abi() {
           EIGEN_MAX_STATIC_ALIGN_BYTES,
           alignof(std::max_align_t),
           EIGEN_MALLOC_ALREADY_ALIGNED,
-          CAMBIUM_SANITIZER};
+          CAMBIUM_SANITIZER,
+          api_digest};
 }
 
 class Registry;

@@ -35,7 +35,9 @@ constexpr Field fields[] = {
     {"eigen_malloc", &AbiStamp::eigen_malloc,
      "build both with the same EIGEN_MALLOC_ALREADY_ALIGNED"},
     {"sanitizer", &AbiStamp::sanitizer,
-     "build both with the same sanitizer (0 none, 1 address, 2 thread)"}};
+     "build both with the same sanitizer (0 none, 1 address, 2 thread)"},
+    {"headers", &AbiStamp::headers,
+     "the public headers declare something else: build the plugin again, against this Cambium"}};
 
 void check_api(const PluginDescriptor& plugin, const std::string& library, const HostAbi& host) {
   const bool newer = plugin.api_major > host.major ||
