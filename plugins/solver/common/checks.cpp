@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "checks.hpp"
+#include "common/checks.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "cambium/error.hpp"
-#include "information.hpp"
+#include "common/information.hpp"
 
-namespace cambium::ceres_solver {
+namespace cambium::pose_solver {
 namespace {
 
 void require(bool ok, const std::string& factor, const std::string& what) {
@@ -121,4 +121,4 @@ std::vector<bool> held_nodes(const PoseGraph& graph, const std::vector<std::size
   return held;
 }
 
-}  // namespace cambium::ceres_solver
+}  // namespace cambium::pose_solver

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "chordal.hpp"
+#include "common/chordal.hpp"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 
-namespace cambium::ceres_solver {
+#include "common/cholesky.hpp"
+
+namespace cambium::pose_solver {
 namespace {
 
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
-// The unknowns come in a good order already (see order()).
-using Cholesky = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 constexpr Index known = -1;
 
@@ -46,21 +45,13 @@ std::vector<Index> order(const PoseGraph& graph, const std::vector<bool>& anchor
   Index count = 0;
   for (std::size_t i = 0; i < anchored.size(); ++i)
     if (!anchored[i]) unknown[i] = count++;
-  Triplets pattern;
-  for (Index i = 0; i < count; ++i) pattern.emplace_back(i, i, 1.0);
+  std::vector<std::pair<int, int>> couplings;
   for (std::size_t k = 0; k < graph.relative.size(); ++k) {
     const auto& f = graph.relative[k];
-    const Index a = unknown[f.tail], b = unknown[f.head];
-    if (!use[k] || a == known || b == known || a == b) continue;
-    pattern.emplace_back(a, b, 1.0);
-    pattern.emplace_back(b, a, 1.0);
+    if (use[k] && unknown[f.tail] != known && unknown[f.head] != known)
+      couplings.emplace_back(unknown[f.tail], unknown[f.head]);
   }
-  Sparse A(count, count);
-  A.setFromTriplets(pattern.begin(), pattern.end());
-  Eigen::AMDOrdering<int>::PermutationType elimination;
-  Eigen::AMDOrdering<int>()(A, elimination);
-  std::vector<Index> place(std::size_t(count), 0);
-  for (Index i = 0; i < count; ++i) place[std::size_t(elimination.indices()[i])] = i;
+  const auto place = elimination_order(int(count), couplings);
   for (auto& u : unknown)
     if (u != known) u = place[std::size_t(u)];
   return unknown;
@@ -75,9 +66,11 @@ void add_lower(Triplets& H, Index row, Index col, const Matrix3d& block) {
 bool solve(Index size, const Triplets& triplets, Eigen::MatrixX3d& b) {
   Sparse H(size, size);
   H.setFromTriplets(triplets.begin(), triplets.end());
-  Cholesky cholesky(H);
-  if (cholesky.info() != Eigen::Success) return false;
-  b = cholesky.solve(b).eval();
+  const LowerPattern pattern{{H.outerIndexPtr(), H.outerIndexPtr() + size + 1},
+                             {H.innerIndexPtr(), H.innerIndexPtr() + H.nonZeros()}};
+  Cholesky cholesky(pattern);
+  if (!cholesky.factorize({H.valuePtr(), H.valuePtr() + H.nonZeros()})) return false;
+  b = cholesky.solve(b);
   return b.allFinite();
 }
 
@@ -152,4 +145,4 @@ std::vector<SE3> chordal_poses(const PoseGraph& graph, const std::vector<bool>& 
   return poses;
 }
 
-}  // namespace cambium::ceres_solver
+}  // namespace cambium::pose_solver

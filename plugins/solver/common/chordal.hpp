@@ -7,7 +7,7 @@
 
 #include "cambium/pose_graph.hpp"
 
-namespace cambium::ceres_solver {
+namespace cambium::pose_solver {
 
 /// The rotations that minimise sum omega |R_head - R_tail R_tail_head|_F^2 over all 3x3 matrices,
 /// each projected to SO(3), then the translations that minimise sum tau |t_head - t_tail - R_tail
@@ -19,4 +19,4 @@ namespace cambium::ceres_solver {
 std::vector<SE3> chordal_poses(const PoseGraph& graph, const std::vector<bool>& anchored,
                                const std::vector<bool>& use);
 
-}  // namespace cambium::ceres_solver
+}  // namespace cambium::pose_solver

@@ -3,10 +3,11 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace cambium::ceres_solver {
+namespace cambium::pose_solver {
 
 /// The nearest positive semi-definite matrix (Frobenius norm; Higham 1988): the symmetric part with
-/// its negative eigenvalues set to zero. Returns the smallest eigenvalue found.
+/// its negative eigenvalues set to zero. Returns the smallest eigenvalue when it was
+/// negative, else 0.
 double project_to_psd(Eigen::Ref<Eigen::MatrixXd> information);
 
 /// Writes U with U' U = information (symmetric, positive semi-definite), so that |U r|^2 is
@@ -14,4 +15,4 @@ double project_to_psd(Eigen::Ref<Eigen::MatrixXd> information);
 void square_root(const Eigen::Ref<const Eigen::MatrixXd>& information,
                  Eigen::Ref<Eigen::MatrixXd> U);
 
-}  // namespace cambium::ceres_solver
+}  // namespace cambium::pose_solver

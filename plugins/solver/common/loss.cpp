@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loss.hpp"
+#include "common/loss.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace cambium::ceres_solver {
+namespace cambium::pose_solver {
 
 const std::vector<std::string>& loss_names() {
   static const std::vector<std::string> names = {"none", "huber", "cauchy", "geman_mcclure", "dcs"};
@@ -16,7 +16,7 @@ LossKind loss_from(const std::string& name) {
   return LossKind(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-void Loss::Evaluate(double s, double rho[3]) const {
+void Loss::evaluate(double s, double rho[3]) const {
   rho[0] = s, rho[1] = 1, rho[2] = 0;
   switch (kind_) {
     case LossKind::none:
@@ -54,14 +54,14 @@ void Loss::Evaluate(double s, double rho[3]) const {
 
 double Loss::value(double s) const {
   double rho[3];
-  Evaluate(s, rho);
+  evaluate(s, rho);
   return rho[0];
 }
 
 double Loss::weight(double s) const {
   double rho[3];
-  Evaluate(s, rho);
+  evaluate(s, rho);
   return rho[1];
 }
 
-}  // namespace cambium::ceres_solver
+}  // namespace cambium::pose_solver

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "start.hpp"
+#include "common/start.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -7,9 +7,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "chordal.hpp"
+#include "common/chordal.hpp"
+#include "common/costs.hpp"
 
-namespace cambium::ceres_solver {
+namespace cambium::pose_solver {
 namespace {
 
 /// The factors without robust loss, and of the others a spanning forest, first come first taken.
@@ -99,32 +100,6 @@ std::vector<SE3> relaxed(const PoseGraph& graph, const std::vector<std::size_t>&
 
 }  // namespace
 
-std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::size_t>& component,
-                                 const std::vector<SE3>& T, const Loss& loss) {
-  std::vector<double> F(T.size());  // by component; the tail is unused
-  const auto add = [&](std::size_t node, double s, bool robust) {
-    F[component[node]] += robust ? loss.value(s) : s;
-  };
-  for (const auto& f : graph.relative) {
-    const Vec6 r = residual(f.T_tail_head, T[f.tail], T[f.head]);
-    add(f.tail, r.dot(f.information * r), f.robust);
-  }
-  for (const auto& f : graph.priors) {
-    const Vec6 r = residual(f.T_map_node, SE3{}, T[f.node]);
-    add(f.node, r.dot(f.information * r), false);
-  }
-  for (const auto& f : graph.positions) {
-    const Vec3 r = T[f.node].t - f.t_map;
-    add(f.node, r.dot(f.information * r), f.robust);
-  }
-  for (const auto& f : graph.attitude) {
-    const Vec3 up = T[f.node].q.conjugate() * Vec3::UnitZ();
-    const Vec3 r = up - f.up_node * f.up_node.dot(up);
-    add(f.node, r.squaredNorm() / (f.sigma * f.sigma), false);
-  }
-  return F;
-}
-
 std::vector<SE3> chordal_start(const PoseGraph& graph, const std::vector<std::size_t>& component,
                                const std::vector<bool>& held, const Loss& loss) {
   std::vector<std::vector<SE3>> starts;
@@ -132,11 +107,12 @@ std::vector<SE3> chordal_start(const PoseGraph& graph, const std::vector<std::si
   starts.push_back(relaxed(graph, component, held, all));
   if (loss.robust() && trusted != all) starts.push_back(relaxed(graph, component, held, trusted));
 
+  const Weights weights = unit_weights(graph);
   std::vector<SE3> best = graph.T_map_node;
-  auto best_costs = robust_costs(graph, component, best, loss);
+  auto best_costs = robust_costs(graph, component, best, weights, loss);
   for (const auto& poses : starts) {
     if (poses.empty()) continue;
-    const auto costs = robust_costs(graph, component, poses, loss);
+    const auto costs = robust_costs(graph, component, poses, weights, loss);
     const auto better = [&](std::size_t c) { return costs[c] < best_costs[c]; };
     for (std::size_t i = 0; i < best.size(); ++i)
       if (better(component[i])) best[i] = poses[i];
@@ -146,4 +122,4 @@ std::vector<SE3> chordal_start(const PoseGraph& graph, const std::vector<std::si
   return best;
 }
 
-}  // namespace cambium::ceres_solver
+}  // namespace cambium::pose_solver

@@ -4,13 +4,9 @@
 #include <vector>
 
 #include "cambium/pose_graph.hpp"
-#include "loss.hpp"
+#include "common/loss.hpp"
 
-namespace cambium::ceres_solver {
-
-/// What Ceres minimises: sum rho(r' Omega r), by component.
-std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::size_t>& component,
-                                 const std::vector<SE3>& T_map_node, const Loss& loss);
+namespace cambium::pose_solver {
 
 /// For every component the cheapest of: the given poses, the chordal relaxation of all factors, and
 /// (under a robust loss) that of the trusted factors with only as many loops as tie them together,
@@ -18,4 +14,4 @@ std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::
 std::vector<SE3> chordal_start(const PoseGraph& graph, const std::vector<std::size_t>& component,
                                const std::vector<bool>& held, const Loss& loss);
 
-}  // namespace cambium::ceres_solver
+}  // namespace cambium::pose_solver
