@@ -18,7 +18,7 @@ struct GroundOptions {
   double cell_size = 1;    ///< [m]
   double max_range = 15;   ///< of a point from its node, horizontally [m]
   double thickness = 0.2;  ///< points so close above the lowest of a cell are ground [m]
-  int min_points = 3;      ///< of a scan in a cell
+  int min_points = 10;     ///< of a scan in a cell
 };
 
 /// One point of the ground in each cell. The points of one scan in a cell give their mean over the
