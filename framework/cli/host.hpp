@@ -41,6 +41,7 @@ void add_validate(CLI::App& app);
 void add_plugins(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_inspect(CLI::App& app);
+void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
 
 }  // namespace cambium::cli

@@ -17,6 +17,7 @@ int run(int argc, char** argv) {
   add_run(app);
   add_validate(app);
   add_inspect(app);
+  add_evaluate(app);
   add_plugins(app);
   add_schema(app);
   add_simulate(app);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "host.hpp"
+#include "metric_table.hpp"
 
 namespace cambium::cli {
 namespace {
@@ -14,11 +15,19 @@ struct Options {
   EngineFlags engine;
 };
 
-void print_metrics(const std::vector<Metric>& metrics) {
-  std::size_t width = 0;
-  for (const auto& m : metrics) width = std::max(width, m.name.size());
-  for (const auto& m : metrics)
-    fmt::print("{:<{}}  {:>10.4g} {}\n", m.name, width, m.value, m.unit);
+// At most so many files of one export are named; of more, their folder.
+constexpr std::size_t few = 3;
+
+void print_files(const std::vector<StepRecord>& steps, const std::filesystem::path& out) {
+  fmt::print("{:<14} {}\n", "report", (out / "report.json").string());
+  fmt::print("{:<14} {}\n", "pose graph", (out / "fused.g2o").string());
+  for (const auto& step : steps) {
+    if (step.files.size() > few)
+      fmt::print("{:<14} {} ({} files)\n", step.plugin, step.files.front().parent_path().string(),
+                 step.files.size());
+    else
+      for (const auto& file : step.files) fmt::print("{:<14} {}\n", step.plugin, file.string());
+  }
 }
 
 void run(const Options& o) {
@@ -27,10 +36,8 @@ void run(const Options& o) {
   Progress progress = o.engine.progress();
   const Engine engine(o.engine.options(), progress);
   const RunResult result = run_pipeline(o.run, pipeline, loader.registry(), engine);
-  print_metrics(result.known.metrics);
-  progress.log(LogLevel::info,
-               fmt::format("map: {}, report: {}", (o.run.out / "fused.g2o").string(),
-                           (o.run.out / "report.json").string()));
+  if (!result.known.metrics.empty()) fmt::print("\n{}\n", headline_table(result.steps));
+  print_files(result.steps, o.run.out);
 }
 
 }  // namespace

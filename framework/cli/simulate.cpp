@@ -49,7 +49,7 @@ void add_simulate(CLI::App& app) {
   sub->add_option("OUT", o->out, "Folder to write; new, empty, or of the same specification");
   sub->add_flag("--schema", o->schema, "Print the JSON Schema of a specification instead");
   o->engine.add_to(*sub);
-  sub->footer("Example: cambium simulate tests/specs/demo.yaml demo_missions");
+  sub->footer("Example: cambium simulate pipelines/demo/forest.yaml demo_missions");
   sub->callback([o] { run(*o); });
 }
 

@@ -32,7 +32,7 @@ std::string write_pipeline(const TemporaryFolder& folder, const std::string& tex
 }  // namespace
 
 TEST(CommandLine, EveryCommandHelpsWithAnExample) {
-  for (const char* command : {"run", "validate", "inspect", "plugins", "schema"}) {
+  for (const char* command : {"run", "validate", "inspect", "evaluate", "plugins", "schema", "simulate"}) {
     const auto help = run_cambium({command, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_CONTAINS(help.out, "Example: cambium " + std::string(command));

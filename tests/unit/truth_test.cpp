@@ -45,6 +45,16 @@ TEST(Truth, LooksIntoTheReferenceFolder) {
   EXPECT_EQ(read_truth(atlas, folder.path(), 0.01).matched, 1u);
 }
 
+TEST(Truth, NodesThatShareTheirStampHaveNoTruth) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.tum", rows);
+  Atlas atlas = atlas_with_folder("/nowhere");
+  Mission stuck = *atlas.missions[0].mission;
+  stuck.nodes[1].stamp = stuck.nodes[0].stamp;
+  atlas.missions[0].mission = std::make_shared<const Mission>(stuck);
+  EXPECT_EQ(read_truth(atlas, folder.path(), 0.01).matched, 0u);
+}
+
 TEST(Truth, NodesWithoutAStampHaveNoTruth) {
   const TemporaryFolder folder;
   write_file(folder / "a.tum", rows);

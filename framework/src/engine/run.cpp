@@ -87,7 +87,9 @@ ResolvedPipeline prepare_run(const RunOptions& options, const Registry& registry
   Pipeline p = load_pipeline(options.pipeline, options.overrides);
   if (options.seed) p.seed = *options.seed;
   if (!options.missions.empty()) p.missions.clear();
-  for (const auto& m : options.missions) p.missions.push_back({m, "", "", {}, "command line"});
+  // Absolute, as those of a file become: resolved.yaml is read from another folder than this one.
+  for (const auto& m : options.missions)
+    p.missions.push_back({fs::absolute(m).string(), "", "", {}, "command line"});
   return resolve(p, registry);
 }
 

@@ -13,17 +13,10 @@ namespace {
 // The truth is an input like any other: when a file of it changes, the metrics are computed again.
 Digest truth_key(const std::filesystem::path& reference, const Atlas& atlas) {
   Hasher hasher;
-  std::vector<std::filesystem::path> files;
-  const auto collect = [&](const std::filesystem::path& folder) {
-    if (!std::filesystem::is_directory(folder)) return;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.is_regular_file() && entry.path().extension() == ".tum")
-        files.push_back(entry.path());
-  };
-  if (!reference.empty()) collect(reference);
-  for (const auto& m : atlas.missions) collect(m.mission->folder);
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) hasher.add(file.string()).add(digest_file(file));
+  for (const auto& m : atlas.missions) {
+    const auto file = truth_file(*m.mission, reference);
+    if (std::filesystem::is_regular_file(file)) hasher.add(file.string()).add(digest_file(file));
+  }
   return hasher.digest();
 }
 
@@ -41,10 +34,10 @@ Known run_evaluate(Known known, const StepScope& scope) {
   const std::filesystem::path reference = scope.step.keys.reference;
   if (c.as<Evaluator>().needs_truth() && !has_truth(reference, known.atlas)) {
     scope.record.summary = "skipped: no ground truth";
-    scope.engine.progress().log(LogLevel::warning,
-                                fmt::format("'{}' is skipped: no mission has a ground_truth.tum and "
-                                            "the step names no 'reference'",
-                                            scope.step.title()));
+    scope.engine.progress().log(
+        LogLevel::warning, fmt::format("'{}' is skipped: no mission has a ground_truth.tum and "
+                                       "the step names no 'reference'",
+                                       scope.step.title()));
     return known;
   }
   std::vector<Metric> metrics;
@@ -57,6 +50,7 @@ Known run_evaluate(Known known, const StepScope& scope) {
     });
     return hit;
   });
+  scope.record.metrics = metrics;
   const std::string& label = scope.step.keys.label;
   for (Metric& m : metrics)
     if (!label.empty()) m.name = label + "." + m.name;

@@ -21,6 +21,7 @@ struct StepRecord {
   std::vector<std::pair<std::string, std::string>> key;  ///< named parts of its cache key
   std::vector<Score> figures;                            ///< e.g. cost before and after
   std::vector<std::filesystem::path> files;              ///< written by an export
+  std::vector<Metric> metrics;                           ///< of an evaluator, without label
 };
 
 /// What a step may use.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cambium/error.hpp"
 #include "cambium/files.hpp"
@@ -65,8 +66,12 @@ Truth read_truth(const Atlas& atlas, const std::filesystem::path& reference,
     std::vector<StampedPose> poses = read_tum(file);
     std::stable_sort(poses.begin(), poses.end(),
                      [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; });
+    // Of nodes that share a stamp it is not known which one was where: none has a true pose.
+    std::map<Stamp, int> carriers;
+    for (const Node& node : mission.nodes)
+      if (node.stamp) ++carriers[*node.stamp];
     for (std::size_t i = 0; i < mission.nodes.size(); ++i) {
-      if (!mission.nodes[i].stamp) continue;
+      if (!mission.nodes[i].stamp || carriers[*mission.nodes[i].stamp] > 1) continue;
       T_world_node[i] = nearest(poses, *mission.nodes[i].stamp, max_time_difference);
       truth.matched += T_world_node[i].has_value();
     }

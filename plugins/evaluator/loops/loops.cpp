@@ -88,8 +88,8 @@ class LoopEvaluator final : public Evaluator {
                                    count("unjudged", accepted - judged.size(), Better::lower),
                                    count("wrong", judged.size() - correct, Better::lower)};
     if (judged.empty()) return metrics;  // no loops have no precision
-    metrics.push_back(
-        {"loops.precision", double(correct) / double(judged.size()), "", Better::higher});
+    metrics.insert(metrics.begin(), {"loops.precision", double(correct) / double(judged.size()), "",
+                                     Better::higher});
     metrics.push_back({"loops.worst_translation", translation, "m", Better::lower});
     metrics.push_back({"loops.worst_rotation", rotation, "deg", Better::lower});
     return metrics;

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "cambium/files.hpp"
-#include "support/support.hpp"
+#include "support/maps.hpp"
 
 namespace cambium::testing {
 namespace {
@@ -18,12 +17,9 @@ class Loops : public ::testing::Test {
       for (int i = 0; i < 10; ++i)
         poses.push_back(SE3::from_yaw(0.1 * i, {4.0 * i, *name == 'a' ? 0.0 : 1.0, 0}));
       missions.push_back(make_mission(name, poses));
-      std::vector<StampedPose> rows;
-      for (const Node& node : missions.back().nodes)
-        rows.push_back({*node.stamp, SE3::from_yaw(2, {5, 5, 5}) * node.T_mission_node});
-      write_file(folder_ / (std::string(name) + ".tum"), format_tum(rows));
     }
     atlas_ = make_atlas(missions);
+    write_truth(atlas_, folder_.path());
   }
 
   void add_loop(std::uint32_t tail, std::uint32_t head, const SE3& error = {},
@@ -35,11 +31,7 @@ class Loops : public ::testing::Test {
   }
 
   std::map<std::string, double> evaluate(const std::string& yaml = "{}") const {
-    std::map<std::string, double> out;
-    for (const Metric& m :
-         component<Evaluator>("loops", yaml)->evaluate(atlas_, folder_.path(), *make_context()))
-      EXPECT_TRUE(out.emplace(m.name, m.value).second) << m.name << " twice";
-    return out;
+    return testing::evaluate("loops", atlas_, folder_.path(), yaml);
   }
 
   TemporaryFolder folder_;
@@ -77,6 +69,15 @@ TEST_F(Loops, FindsWrongLoops) {
   EXPECT_NEAR(m.at("loops.worst_translation"), 0.51, 1e-9);
   EXPECT_NEAR(m.at("loops.worst_rotation"), 5.1, 1e-9);
   EXPECT_EQ(evaluate("{max_translation: 1, max_rotation: 10}").at("loops.wrong"), 0);
+}
+
+// Loops that are all off by d show d; the map itself does not matter.
+TEST_F(Loops, MeasuresAKnownError) {
+  for (const std::uint32_t i : {0u, 3u, 7u}) add_loop(i, i, SE3::from_yaw(0, {0, 0.3, 0}));
+  atlas_ = moved(tied(atlas_), 1, SE3::from_yaw(1, {9, 9, 9}));
+  EXPECT_NEAR(evaluate().at("loops.worst_translation"), 0.3, 1e-9);
+  EXPECT_EQ(evaluate().at("loops.precision"), 1);
+  EXPECT_EQ(evaluate("{max_translation: 0.29}").at("loops.precision"), 0);
 }
 
 TEST_F(Loops, TheSamePairTwiceIsFoundOnce) {

@@ -2,21 +2,21 @@
 // How well the scans of different passes agree: needs no truth, and is finer than most of it.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "agreement.hpp"
 #include "cambium/plugin.hpp"
 #include "cambium/statistics.hpp"
 #include "overlaps.hpp"
-#include "surface.hpp"
 
 namespace map_crispness {
 namespace {
 
 using namespace cambium;
 
-/// Agreement of two scans: NaN where nothing could be compared.
-struct Agreement {
-  double fused = std::nan(""), truth = std::nan("");  // median point-to-plane distance [m]
-  double overlap = 0;  // share of the source's points that found a plane under the fused poses
+/// Two scans under the fused poses and, where they are known, under the true ones.
+struct Compared {
+  std::optional<Agreement> fused, truth;
 };
 
 using Pairs = std::vector<std::pair<NodeRef, NodeRef>>;
@@ -31,36 +31,65 @@ std::vector<std::pair<std::size_t, std::size_t>> by_target(const Pairs& pairs) {
   return groups;
 }
 
-std::vector<double> finite(const std::vector<double>& values) {
+/// A figure of the pairs that have it.
+std::vector<double> finite(const std::vector<Agreement>& agreements, double Agreement::*figure) {
   std::vector<double> out;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(out),
-               [](double v) { return std::isfinite(v); });
+  for (const Agreement& a : agreements)
+    if (std::isfinite(a.*figure)) out.push_back(a.*figure);
   return out;
 }
 
-std::vector<Metric> metrics_of(const std::vector<Agreement>& agreements) {
-  std::vector<double> fused, beside_truth, truth;
-  double overlap = 0;
-  for (const Agreement& a : agreements) {
-    fused.push_back(a.fused);
-    overlap += a.overlap / double(agreements.size());
-    if (!std::isfinite(a.fused) || !std::isfinite(a.truth)) continue;
-    beside_truth.push_back(a.fused);
-    truth.push_back(a.truth);
-  }
-  fused = finite(fused);
-  std::vector<Metric> out = {
-      {"map_crispness.pairs", double(fused.size()), "pairs", Better::neither}};
-  if (agreements.empty()) return out;
-  out.push_back({"map_crispness.overlap", overlap, "", Better::higher});
-  if (fused.empty()) return out;
-  out.insert(out.begin(), {"map_crispness.median", median(fused), "m", Better::lower});
-  out.push_back(
-      {"map_crispness.worst", *std::max_element(fused.begin(), fused.end()), "m", Better::lower});
-  if (truth.empty() || !(median(truth) > 0)) return out;
-  out.push_back({"map_crispness.truth.median", median(truth), "m", Better::neither});
-  out.push_back({"map_crispness.ratio", median(beside_truth) / median(truth), "", Better::lower});
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+/// Medians of distances and the mean entropy, as `<prefix>median`, ...
+std::vector<Metric> summary(const std::vector<Agreement>& agreements, const std::string& prefix,
+                            Better better) {
+  std::vector<Metric> out;
+  const auto add = [&](const char* name, double Agreement::*figure) {
+    if (const auto values = finite(agreements, figure); !values.empty())
+      out.push_back({"map_crispness." + prefix + name, median(values), "m", better});
+  };
+  add("median", &Agreement::all);
+  add("ground", &Agreement::ground);
+  add("upright", &Agreement::upright);
+  if (const auto entropies = finite(agreements, &Agreement::entropy); !entropies.empty())
+    out.push_back({"map_crispness." + prefix + "entropy", mean(entropies), "nat", better});
   return out;
+}
+
+std::vector<Metric> metrics_of(const std::vector<Compared>& compared) {
+  std::vector<Agreement> fused, beside_truth, truth;
+  double overlap = 0;
+  for (const Compared& c : compared) {
+    if (!c.fused) continue;
+    fused.push_back(*c.fused);
+    overlap += c.fused->overlap / double(compared.size());
+    if (!c.truth || !std::isfinite(c.fused->all) || !std::isfinite(c.truth->all)) continue;
+    beside_truth.push_back(*c.fused);
+    truth.push_back(*c.truth);
+  }
+  const auto distances = finite(fused, &Agreement::all);
+  std::vector<Metric> out = summary(fused, "", Better::lower);
+  out.push_back({"map_crispness.pairs", double(distances.size()), "pairs", Better::neither});
+  if (compared.empty()) return out;
+  out.push_back({"map_crispness.overlap", overlap, "", Better::higher});
+  if (distances.empty()) return out;
+  out.push_back({"map_crispness.worst", *std::max_element(distances.begin(), distances.end()), "m",
+                 Better::lower});
+  const auto of_truth = summary(truth, "truth.", Better::neither);
+  out.insert(out.end(), of_truth.begin(), of_truth.end());
+  const auto true_distances = finite(truth, &Agreement::all);
+  if (!true_distances.empty() && median(true_distances) > 0)
+    out.push_back({"map_crispness.ratio",
+                   median(finite(beside_truth, &Agreement::all)) / median(true_distances), "",
+                   Better::lower});
+  return out;
+}
+
+Surface surface_of(const Cloud& cloud, const SE3& T_map_node) {
+  return Surface(cloud, T_map_node.q.conjugate() * Vec3::UnitZ());
 }
 
 }  // namespace
@@ -69,7 +98,9 @@ class MapCrispness final : public Evaluator {
  public:
   void params(ParamVisitor& v) override {
     v("voxel_size", voxel_size_, "One point of each voxel of a scan is compared", above(0, "m"));
-    v("radius", radius_, "A point is compared when another scan has a point so close",
+    v("radius", reach_.contact, "A point is compared when another scan has a point so close",
+      above(0, "m"));
+    v("entropy_radius", reach_.entropy, "Neighbourhoods of this radius give the map entropy",
       above(0, "m"));
     v("max_distance", max_distance_, "Scans are compared when taken so close together",
       above(0, "m"));
@@ -87,39 +118,39 @@ class MapCrispness final : public Evaluator {
     const Pairs pairs = overlapping_pairs(
         atlas, truth, {max_distance_, min_path_, std::size_t(max_pairs_)}, context);
     const auto groups = by_target(pairs);
-    std::vector<Agreement> agreements(pairs.size());
+    std::vector<Compared> compared(pairs.size());
     context.parallel_for(groups.size(), [&](std::size_t g) {
-      const auto target = atlas.payload(pairs[groups[g].first].first).cloud;
-      if (!target) return;
-      Surface surface(*target);
+      const NodeRef node = pairs[groups[g].first].first;
+      const auto cloud = atlas.payload(node).cloud;
+      if (!cloud) return;
+      Surface target = surface_of(*cloud, atlas.T_map_node(node));
       for (std::size_t i = groups[g].first; i < groups[g].second; ++i) {
         context.check_cancelled();
-        agreements[i] = compare(atlas, truth, surface, pairs[i].first, pairs[i].second);
+        compared[i] = compare(atlas, truth, target, pairs[i].first, pairs[i].second);
       }
     });
-    return metrics_of(agreements);
+    return metrics_of(compared);
   }
 
  private:
-  Agreement compare(const Atlas& atlas, const Truth& truth, Surface& surface, NodeRef target,
-                    NodeRef source) const {
-    Agreement out;
-    const auto cloud = atlas.payload(source).cloud;
+  Compared compare(const Atlas& atlas, const Truth& truth, Surface& target, NodeRef target_node,
+                   NodeRef source_node) const {
+    Compared out;
+    const auto cloud = atlas.payload(source_node).cloud;
     if (!cloud || cloud->empty()) return out;
     const Cloud points = thinned(*cloud, voxel_size_);
-    const auto fused = surface.distances(
-        points, atlas.T_map_node(target).inverse() * atlas.T_map_node(source), radius_);
-    out.fused = median(fused);
-    out.overlap = points.empty() ? 0 : double(fused.size()) / double(points.size());
-    const auto &T_world_target = truth.at(target), &T_world_source = truth.at(source);
-    if (T_world_target && T_world_source)
-      out.truth =
-          median(surface.distances(points, T_world_target->inverse() * *T_world_source, radius_));
+    Surface source = surface_of(*cloud, atlas.T_map_node(source_node));
+    const auto under = [&](const SE3& T_frame_target, const SE3& T_frame_source) {
+      return agreement(target, source, points, T_frame_target.inverse() * T_frame_source, reach_);
+    };
+    out.fused = under(atlas.T_map_node(target_node), atlas.T_map_node(source_node));
+    const auto &T_world_target = truth.at(target_node), &T_world_source = truth.at(source_node);
+    if (T_world_target && T_world_source) out.truth = under(*T_world_target, *T_world_source);
     return out;
   }
 
   double voxel_size_ = 0.5;
-  double radius_ = 1.0;
+  Reach reach_ = {1.0, 0.5};
   double max_distance_ = 5.0;
   double min_path_ = 20.0;
   int max_pairs_ = 200;
@@ -128,7 +159,8 @@ class MapCrispness final : public Evaluator {
 
 }  // namespace map_crispness
 
-CAMBIUM_PLUGIN("map_crispness", "0.1.0") {
+CAMBIUM_PLUGIN("map_crispness", "0.2.0") {
   registry.add<map_crispness::MapCrispness>(
-      "map_crispness", "Point-to-plane distance between overlapping scans; no truth needed");
+      "map_crispness",
+      "Point-to-plane distance and entropy of overlapping scans on ground and stems");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scan as the surface that its points lie on.
+// A scan as the surfaces that its points lie on: ground, and what stands up (stems, walls).
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,29 +9,47 @@
 
 namespace map_crispness {
 
+using cambium::Vec3;
+
 /// One point of each voxel, in a fixed order; points that are not finite are left out.
 cambium::Cloud thinned(const cambium::Cloud& cloud, double voxel_size);
+
+enum class Kind { ground, upright };
+
+/// A point of another scan on this one's surface.
+struct Contact {
+  Vec3 p_source, p_target;
+  double distance = 0;  ///< to the plane through the nearest points [m]
+  Kind kind = Kind::ground;
+};
 
 /// Not for several threads at once: planes are fitted when they are first needed.
 class Surface {
  public:
-  explicit Surface(const cambium::Cloud& target);
+  /// `up` is the vertical in the frame of the scan.
+  Surface(const cambium::Cloud& scan, const Vec3& up);
   ~Surface();
 
-  /// Distances [m] to the plane through the nearest target points, for the points of `source` that
-  /// have a target point within `radius` [m] which lies on something flat.
-  std::vector<double> distances(const cambium::Cloud& source, const cambium::SE3& T_target_source,
+  /// The points of `source` that have a point of this scan within `radius` [m] which lies on ground
+  /// or on something upright. Leaves are left out: they would hide how well the rest agrees.
+  std::vector<Contact> contacts(const cambium::Cloud& source, const cambium::SE3& T_this_source,
                                 double radius);
+
+  /// The points of this scan within `radius` [m] of p.
+  std::vector<Vec3> around(const Vec3& p, double radius);
 
  private:
   struct Plane {
-    Eigen::Vector3d center, normal;
+    Vec3 center, normal;
+    Kind kind;
   };
   struct Tree;
   const std::optional<Plane>& plane_at(int index);
+  std::optional<Plane> fit(int index);
 
+  Vec3 up_;
   std::unique_ptr<Tree> tree_;
-  std::vector<std::optional<std::optional<Plane>>> planes_;  // [point]; fitted, flat
+  std::vector<std::optional<std::optional<Plane>>> planes_;  // [point]; fitted, usable
 };
 
 }  // namespace map_crispness

@@ -24,6 +24,10 @@ class PairwiseConsistency final : public LoopVerifier {
       between(1, 1000));
     v("min_support_path", min_support_path_,
       "The loops that tie two missions must span this much of both paths", at_least(0.0, "m"));
+    v("max_rival", max_rival_,
+      "No tie when loops over the same path that contradict the largest set agree among themselves "
+      "and are more than this share of it",
+      between(0, 1));
     v("drift", drift_.systematic.translation,
       "Sigma of the odometry's systematic drift, per metre of path", at_least(0.0, "m/m"));
     v("drift_rotation", drift_.systematic.rotation,
@@ -49,7 +53,7 @@ class PairwiseConsistency final : public LoopVerifier {
           paths.emplace(n.mission, Path(*atlas.missions[n.mission].mission, drift_));
 
     const Rules rules{chi_square_6(probability_), std::size_t(min_clique_), min_support_path_,
-                      std::size_t(branch_limit_)};
+                      max_rival_, std::size_t(branch_limit_)};
     std::vector<Verdict> verdicts(loops.size());
     for (const auto& [missions, members] : by_pair(atlas, loops)) {
       const auto pair = pair_of(atlas, loops, members, paths);
@@ -103,6 +107,7 @@ class PairwiseConsistency final : public LoopVerifier {
   double probability_ = 0.99;
   int min_clique_ = 3;
   double min_support_path_ = 5.0;
+  double max_rival_ = 0.5;
   Drift drift_{{0.01, 0.0003}, {0.05, 0.005}};
   Sigma loop_{0.1, 0.01};
   std::int64_t branch_limit_ = 1000000;

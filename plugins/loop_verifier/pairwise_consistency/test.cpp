@@ -226,6 +226,42 @@ struct TwoRounds {
   Atlas atlas;
 };
 
+// Rows of a plantation: every row further is a set of loops that agree with each other.
+TEST(PairwiseConsistency, APlaceThatRepeatsItselfTiesNothing) {
+  World world(60, 0);
+  const auto& a = *world.atlas.missions[0].T_map_node;
+  const auto& b = *world.atlas.missions[1].T_map_node;
+  const auto add_row = [&](double shift, std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const SE3 T_a_b = a[30] * SE3::from_yaw(0, {0, shift, 0}) * b[30].inverse();
+      world.add_false({0, first + 4 * k}, {1, first + 4 * k},
+                      a[first + 4 * k].inverse() * T_a_b * b[first + 4 * k]);
+    }
+  };
+  add_row(0, 10, 5);
+  EXPECT_EQ(count(verify(world.atlas), world.is_true).false_accepted, 5u);
+  add_row(4, 12, 3);
+  const auto verdicts = verify(world.atlas);
+  EXPECT_EQ(count(verdicts, world.is_true).false_accepted, 0u);
+  EXPECT_NE(verdicts[0].reason.find("repeats itself"), std::string::npos) << verdicts[0].reason;
+  EXPECT_EQ(count(verify(world.atlas, "{max_rival: 0.7}"), world.is_true).false_accepted, 5u);
+}
+
+// Between two stretches of the path the odometry may have slipped: that is no repeating place.
+TEST(PairwiseConsistency, ASetOverAnotherStretchIsNoRival) {
+  World world(100, 0);
+  const auto& a = *world.atlas.missions[0].T_map_node;
+  const auto& b = *world.atlas.missions[1].T_map_node;
+  const auto add_stretch = [&](double shift, std::uint32_t first, std::uint32_t last) {
+    const SE3 T_a_b = a[50] * SE3::from_yaw(0, {0, shift, 0}) * b[50].inverse();
+    for (std::uint32_t i = first; i < last; i += 4)
+      world.add_false({0, i}, {1, i}, a[i].inverse() * T_a_b * b[i]);
+  };
+  add_stretch(0, 0, 40);
+  add_stretch(15, 60, 96);
+  EXPECT_EQ(count(verify(world.atlas), world.is_true).false_accepted, 10u);
+}
+
 TEST(PairwiseConsistency, WithinAMissionTheOdometryIsAWitness) {
   TwoRounds world;
   for (std::uint32_t k = 0; k < 20; ++k) world.add(5 * k, 100 + 5 * k, SE3{});

@@ -22,13 +22,14 @@ class Judge {
     admit();
     measure_distances();
     while (left_.first() != Bits::npos) {
-      const Clique clique = search();
-      const auto& members = clique.members;
+      const auto members = search(left_);
       if (members.size() + (pair_.within ? 1 : 0) < rules_.min_clique) {
         reject_left_as_too_few(members.size());
       } else if (const double support = supported_path(members);
                  !pair_.within && support < rules_.min_support_path) {
         reject_as_one_place(members, support);
+      } else if (const auto rival = rival_of(members); !rival.empty()) {
+        reject_left_as_ambiguous(members.size(), rival.size());
       } else {
         accept(members);
         break;
@@ -82,25 +83,51 @@ class Judge {
     return double(rows_[std::min(i, j)][std::max(i, j) - std::min(i, j)]);
   }
 
-  Clique search() const {
+  /// The largest set of loops among `allowed` that agree with each other.
+  std::vector<std::size_t> search(const Bits& allowed) const {
     CliqueProblem problem;
     problem.neighbours.assign(size(), Bits(size()));
     for (std::size_t i = 0; i < size(); ++i)
       for (std::size_t j = i + 1; j < size(); ++j)
-        if (left_.test(i) && left_.test(j) && distance(i, j) <= rules_.gate) {
+        if (allowed.test(i) && allowed.test(j) && distance(i, j) <= rules_.gate) {
           problem.neighbours[i].set(j);
           problem.neighbours[j].set(i);
         }
     problem.distance = [this](std::size_t i, std::size_t j) { return distance(i, j); };
     problem.branch_limit = rules_.branch_limit;
     problem.check_cancelled = [this] { context_.check_cancelled(); };
-    Clique clique = maximum_clique(problem, left_);
+    Clique clique = maximum_clique(problem, allowed);
     if (!clique.exact)
       context_.warn(fmt::format(
           "loops {}: the search for the largest consistent set stopped after {} branches with {} "
           "of {} loops; a larger set may exist (raise branch_limit, or lower probability)",
           where(), rules_.branch_limit, clique.members.size(), size()));
-    return clique;
+    return clique.members;
+  }
+
+  /// Another set that is nearly as large, and says of the same stretch of a path that it lies
+  /// elsewhere; empty when there is none. Rows of a plantation give one such set for each row. Sets
+  /// over different stretches are no rivals: between them the odometry may have drifted.
+  std::vector<std::size_t> rival_of(const std::vector<std::size_t>& members) const {
+    if (pair_.within) return {};
+    Bits contradicting(size());
+    for (std::size_t i = 0; i < size(); ++i)
+      if (left_.test(i) && std::ranges::all_of(members, [&](std::size_t m) {
+            return m != i && distance(i, m) > rules_.gate;
+          }))
+        contradicting.set(i);
+    if (contradicting.first() == Bits::npos) return {};
+    const auto rival = search(contradicting);
+    const auto overlap = [&](std::size_t Measurement::*node) {
+      const auto [low, high] = range(members, node);
+      const auto [rival_low, rival_high] = range(rival, node);
+      return rival_low <= high && low <= rival_high;
+    };
+    const bool comparable = double(rival.size()) > rules_.max_rival * double(members.size()) &&
+                            rival.size() > 1 && supported_path(rival) >= rules_.min_support_path;
+    return comparable && (overlap(&Measurement::tail) || overlap(&Measurement::head))
+               ? rival
+               : std::vector<std::size_t>{};
   }
 
   /// The shorter of the two stretches of path that the loops tie together [m].
@@ -131,6 +158,14 @@ class Judge {
                     largest, where(), rules_.min_clique - 1)
               : fmt::format("not tied: only {} of {} loops {} agree with each other, {} needed",
                             largest, size(), where(), rules_.min_clique);
+  }
+
+  void reject_left_as_ambiguous(std::size_t largest, std::size_t rival) {
+    for (std::size_t i; (i = left_.first()) != Bits::npos; left_.reset(i))
+      verdicts_[i].reason = fmt::format(
+          "not tied: {} loops {} agree with each other, but {} others over the same path agree on "
+          "another place: this place repeats itself",
+          largest, where(), rival);
   }
 
   void reject_as_one_place(const std::vector<std::size_t>& members, double support) {

@@ -13,6 +13,7 @@ struct Rules {
   double gate = 0;               ///< squared Mahalanobis distance up to which loops agree
   std::size_t min_clique = 0;    ///< loops; within a mission the odometry counts as one
   double min_support_path = 0;   ///< [m], not within a mission
+  double max_rival = 1;          ///< size of a contradicting set, as a share; not within a mission
   std::size_t branch_limit = 0;  ///< of the clique search
 };
 

@@ -89,9 +89,10 @@ class MissionFolder final : public MissionReader {
           find_stamped_files(mission.folder / tree_folder_, "trees", {".csv"}, mission.warnings);
     if (!clouds.folder.empty()) report_mismatch(mission, clouds, "cloud", mission.warnings);
     if (!trees.folder.empty()) report_mismatch(mission, trees, "tree table", mission.warnings);
+    const std::set<Stamp> shared = shared_stamps(mission, mission.warnings);
     std::vector<PayloadPaths> paths;
     for (Node& node : mission.nodes) {
-      if (!node.stamp) continue;
+      if (!node.stamp || shared.contains(*node.stamp)) continue;
       const PayloadPaths p{file_at(clouds, *node.stamp), file_at(trees, *node.stamp)};
       if (p.cloud.empty() && p.trees.empty()) continue;
       node.payload = std::make_shared<FilePayload>(p.cloud, p.trees, apply_viewpoint_);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
-#include <set>
 
 #include "cambium/error.hpp"
 
@@ -67,6 +66,22 @@ std::string with_first_names(const std::string& what, const std::vector<std::str
   std::string out = std::to_string(names.size()) + " " + what + ":";
   for (std::size_t i = 0; i < std::min<std::size_t>(3, names.size()); ++i) out += " " + names[i];
   return names.size() > 3 ? out + " ..." : out;
+}
+
+std::set<Stamp> shared_stamps(const Mission& mission, std::vector<std::string>& warnings) {
+  std::set<Stamp> once, shared;
+  for (const Node& node : mission.nodes)
+    if (node.stamp && !once.insert(*node.stamp).second) shared.insert(*node.stamp);
+  std::vector<std::string> nodes;
+  for (const Node& node : mission.nodes)
+    if (node.stamp && shared.contains(*node.stamp)) nodes.push_back(std::to_string(node.id));
+  if (!nodes.empty())
+    warnings.push_back(
+        mission.graph_file.string() + ": " +
+        with_first_names("nodes share their stamp with another one, so that it is not known whose "
+                         "the files of that stamp are; these nodes get none",
+                         nodes));
+  return shared;
 }
 
 void report_mismatch(const Mission& mission, const StampedFiles& files, const std::string& what,

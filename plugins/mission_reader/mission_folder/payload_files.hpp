@@ -3,6 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ StampedFiles find_stamped_files(const std::filesystem::path& folder, const std::
 /// Says which nodes have no file and which files no node.
 void report_mismatch(const Mission& mission, const StampedFiles& files, const std::string& what,
                      std::vector<std::string>& warnings);
+
+/// Stamps that several nodes carry, as a clock that stood still leaves them: which of them saw what
+/// lies in their file is not known. Says so in `warnings`.
+std::set<Stamp> shared_stamps(const Mission& mission, std::vector<std::string>& warnings);
 
 /// "3 of 25 nodes have no cloud: a, b, c, ..."
 std::string with_first_names(const std::string& what, const std::vector<std::string>& names);

@@ -246,6 +246,21 @@ TEST(MissionFolder, FilesWithoutANodeAreWarnings) {
             (disk.path() / "individual_clouds/cloud_10_000000005.pcd").string());
 }
 
+TEST(MissionFolder, NodesThatShareAStampGetNoPayload) {
+  MissionOnDisk disk;
+  write_file(
+      disk.path() / "slam_pose_graph.g2o",
+      "VERTEX_SE3:QUAT_TIME 0 0 0 0 0 0 0 1 10 5\nVERTEX_SE3:QUAT_TIME 1 1 0 0 0 0 0 1 10 5\n"
+      "VERTEX_SE3:QUAT_TIME 2 2 0 0 0 0 0 1 11 0\n");
+  const std::string content = pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n";
+  disk.cloud("cloud_10_000000005.pcd", content).cloud("cloud_11_000000000.pcd", content);
+  const Mission m = disk.read();
+  EXPECT_FALSE(m.nodes[0].payload);
+  EXPECT_FALSE(m.nodes[1].payload);
+  EXPECT_TRUE(m.nodes[2].payload);
+  EXPECT_TRUE(contains(m.warnings, "2 nodes share their stamp"));
+}
+
 TEST(MissionFolder, OtherCloudFolders) {
   MissionOnDisk disk;
   disk.cloud("cloud_10_000000005.pcd", pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n");

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/evaluation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/missions.hpp"
+#include "engine/run_folder.hpp"
+
+namespace cambium {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> chosen(const EvaluationOptions& options, const Registry& registry) {
+  if (!options.evaluators.empty()) return options.evaluators;
+  std::vector<std::string> names;
+  for (const auto& [key, component] : registry.all())
+    if (key.first == Kind::evaluator) names.push_back(key.second);
+  return names;
+}
+
+/// "ate.alignment=se3" as the override of the step that is the n-th evaluator.
+std::string of_step(const std::string& text, const std::vector<std::string>& evaluators) {
+  const auto found =
+      std::find(evaluators.begin(), evaluators.end(), text.substr(0, text.find('.')));
+  if (found == evaluators.end() || text.find('.') == std::string::npos)
+    throw Error(
+        ErrorCode::config, "--set " + text,
+        fmt::format("expected EVALUATOR.PARAM=VALUE with one of: {}", fmt::join(evaluators, ", ")));
+  return fmt::format("evaluate[{}]{}", found - evaluators.begin() + 1, text.substr(text.find('.')));
+}
+
+/// One step of the run folder's own pipeline, with its line in the progress display.
+StepRecord run_one(const Step& step, Known& known, const Engine& engine, std::uint64_t seed,
+                   const fs::path& out) {
+  StepRecord record;
+  record.verb = step.verb->word;
+  record.plugin = step.plugin;
+  known.atlas.payloads = known.streams.at(step.keys.payload);
+  engine.progress().begin(step.title());
+  known = step_function(step.verb->kind)(std::move(known), {step, engine, seed, out, record});
+  engine.progress().end(record.summary);
+  return record;
+}
+
+}  // namespace
+
+ResolvedPipeline prepare_evaluation(const EvaluationOptions& options, const Registry& registry) {
+  if (!options.truth.empty() && !fs::is_directory(options.truth))
+    throw Error(ErrorCode::config, options.truth.string(),
+                "is no folder; expected one with <mission>/ground_truth.tum or <mission>.tum");
+  if (!fs::exists(options.run / "report.json") || !fs::exists(options.run / "resolved.yaml"))
+    throw Error(ErrorCode::config, options.run.string(),
+                "holds no finished run (report.json and resolved.yaml); name the folder that "
+                "'cambium run --out' wrote");
+  const auto names = chosen(options, registry);
+  std::string text = "version: 1\nsteps:\n";
+  for (const std::string& name : names) {
+    text += fmt::format("  - evaluate: {}\n", name);
+    if (!options.truth.empty())
+      text += fmt::format("    reference: {}\n",
+                          nlohmann::json(fs::absolute(options.truth).string()).dump());
+  }
+  std::vector<std::string> overrides;
+  for (const auto& o : options.overrides) overrides.push_back(of_step(o, names));
+
+  Pipeline pipeline = load_pipeline(options.run / "resolved.yaml");
+  std::erase_if(pipeline.steps,
+                [](const StepSpec& s) { return s.verb->kind != Kind::payload_filter; });
+  for (StepSpec& step : parse_pipeline(text, "command line", overrides).steps)
+    pipeline.steps.push_back(std::move(step));
+  return resolve(pipeline, registry);
+}
+
+std::vector<StepRecord> evaluate_run(const EvaluationOptions& options,
+                                     const ResolvedPipeline& pipeline, const Registry& registry,
+                                     const Engine& engine) {
+  Known known;
+  known.atlas = read_run(options.run, read_missions(pipeline.spec, registry, engine));
+  known.streams["main"] = known.atlas.payloads;
+  std::vector<StepRecord> records;
+  for (const Step& step : pipeline.steps) {
+    auto record = run_one(step, known, engine, pipeline.spec.seed, options.run);
+    if (step.verb->kind == Kind::evaluator) records.push_back(std::move(record));
+  }
+  return records;
+}
+
+}  // namespace cambium
