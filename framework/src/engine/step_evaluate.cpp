@@ -41,21 +41,21 @@ Known run_evaluate(Known known, const StepScope& scope) {
   const std::filesystem::path reference = scope.step.keys.reference;
   if (c.as<Evaluator>().needs_truth() && !has_truth(reference, known.atlas)) {
     scope.record.summary = "skipped: no ground truth";
-    scope.engine.progress().log(LogLevel::warning,
-                                fmt::format("'{}' is skipped: no mission has a ground_truth.tum and "
-                                            "the step names no 'reference'",
-                                            scope.step.title()));
+    scope.engine.progress().log(
+        LogLevel::warning, fmt::format("'{}' is skipped: no mission has a ground_truth.tum and "
+                                       "the step names no 'reference'",
+                                       scope.step.title()));
     return known;
   }
   std::vector<Metric> metrics;
   scope.run_items(1, [&](std::size_t) {
-    bool hit = false;
+    Making making;
     const Digest input =
         Hasher().add(atlas_key(known.atlas)).add(truth_key(reference, known.atlas)).digest();
-    metrics = scope.cached<std::vector<Metric>>(c, input, hit, [&](const Context& context) {
+    metrics = scope.cached<std::vector<Metric>>(c, input, making, [&](const Context& context) {
       return c.as<Evaluator>().evaluate(known.atlas, reference, context);
     });
-    return hit;
+    return making;
   });
   const std::string& label = scope.step.keys.label;
   for (Metric& m : metrics)
