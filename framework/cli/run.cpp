@@ -3,13 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "host.hpp"
+#include "shards/plan.hpp"
 
 namespace cambium::cli {
 namespace {
 
 struct Options {
   RunOptions run;
+  std::string shard;
+  std::size_t wave = 1;
   PluginOptions plugins;
   EngineFlags engine;
 };
@@ -21,7 +26,39 @@ void print_metrics(const std::vector<Metric>& metrics) {
     fmt::print("{:<{}}  {:>10.4g} {}\n", m.name, width, m.value, m.unit);
 }
 
+// "2/5" -> {2, 5}
+std::pair<std::size_t, std::size_t> parse_shard(const std::string& text) {
+  std::size_t index = 0, count = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, index);
+  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+  if (!slash || std::from_chars(first.ptr + 1, end, count).ptr != end || index < 1 || index > count)
+    throw Error(ErrorCode::config, "--shard",
+                fmt::format("expected I/N with 1 <= I <= N, found '{}'", text));
+  return {index, count};
+}
+
+void run_shard(const Options& o) {
+  const auto [index, count] = parse_shard(o.shard);
+  const PluginLoader loader = o.plugins.load();
+  const shards::Plan plan = shards::read_plan(o.run.pipeline);
+  const EngineOptions options = o.engine.options();
+  if (!options.cache)
+    throw Error(ErrorCode::config, "--cache", "a shard leaves its results in a cache; name one");
+  Progress progress = o.engine.progress();
+  const Engine engine(options, progress);
+  const auto records =
+      run_share(shards::pipeline_of(plan, o.run.pipeline, loader.registry()),
+                {o.wave, shards::shard(plan, index, count)}, loader.registry(), engine);
+  std::size_t items = 0, cached = 0;
+  for (const StepRecord& r : records) items += r.items, cached += r.cached;
+  fmt::print("shard {} of wave {}: {} items, {} of them from the cache\n", o.shard, o.wave, items,
+             cached);
+}
+
 void run(const Options& o) {
+  if (!o.shard.empty()) return run_shard(o);
+  if (o.run.out.empty()) throw Error(ErrorCode::config, "", "--out is required");
   const PluginLoader loader = o.plugins.load();
   const ResolvedPipeline pipeline = prepare_run(o.run, loader.registry());
   Progress progress = o.engine.progress();
@@ -38,17 +75,22 @@ void run(const Options& o) {
 void add_run(CLI::App& app) {
   auto o = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("run", "Run a pipeline over missions and write a run folder");
-  sub->add_option("PIPELINE", o->run.pipeline, "Pipeline file (YAML)")->required();
+  sub->add_option("PIPELINE", o->run.pipeline, "Pipeline file (YAML), or a plan with --shard")
+      ->required();
   sub->add_option("MISSION", o->run.missions,
                   "Mission folders, .g2o files or globs; they replace those of the pipeline");
-  sub->add_option("--out,-o", o->run.out, "Run folder; new, empty, or of an earlier run")
-      ->required();
+  sub->add_option("--out,-o", o->run.out, "Run folder; new, empty, or of an earlier run");
   sub->add_option("--set", o->run.overrides,
                   "One parameter: VERB.PARAM=VALUE for every step of the verb, VERB[n].PARAM=VALUE "
                   "for the n-th")
       ->allow_extra_args(false);
   sub->add_option("--seed", o->run.seed, "Replaces the pipeline's seed");
   sub->add_flag("--explain", o->run.explain, "Say for every step why it ran again");
+  sub->add_option("--shard", o->shard,
+                  "I/N: compute only this part of a plan, into the cache; see 'cambium plan'");
+  sub->add_option("--wave", o->wave, "Of a shard: which of the plan's waves")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   o->plugins.add_to(*sub);
   o->engine.add_to(*sub);
   sub->footer(
