@@ -83,4 +83,15 @@ std::size_t parse_bytes(const std::string& text, const char* option) {
   return std::size_t(value * std::pow(1024.0, power));
 }
 
+std::pair<std::size_t, std::size_t> parse_shard(const std::string& text) {
+  std::size_t index = 0, count = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, index);
+  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+  if (!slash || std::from_chars(first.ptr + 1, end, count).ptr != end || index < 1 || index > count)
+    throw Error(ErrorCode::config, "--shard",
+                fmt::format("expected I/N with 1 <= I <= N, found '{}'", text));
+  return {index, count};
+}
+
 }  // namespace cambium::cli

@@ -35,6 +35,9 @@ struct EngineFlags {
 /// "4G", "500M", "1.5G", plain bytes. Throws Error(config) naming `option`.
 std::size_t parse_bytes(const std::string& text, const char* option);
 
+/// "2/5" -> {2, 5}. Throws Error(config) unless 1 <= I <= N.
+std::pair<std::size_t, std::size_t> parse_shard(const std::string& text);
+
 /// Every command adds itself; its callback runs it. Errors leave as cambium::Error.
 void add_run(CLI::App& app);
 void add_validate(CLI::App& app);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "host.hpp"
@@ -16,6 +17,7 @@ struct Options {
   std::filesystem::path file, out;
   std::size_t jobs = 0;
   int repeat = 0;
+  std::string shard;
   bool update_baseline = false, schema = false;
   PluginOptions plugins;
   EngineFlags engine;
@@ -23,6 +25,17 @@ struct Options {
 
 // https://no-color.org
 bool colour() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
+
+// Leaves its results in the cache, where the matrix itself finds them.
+void run_shard(const Options& o, const matrix::Spec& spec, const Registry& registry,
+               const EngineOptions& options, const Engine& engine) {
+  const auto [index, count] = parse_shard(o.shard);
+  const auto cells = run_study_shard(spec, registry, {o.out, o.jobs, options, o.plugins.path},
+                                     engine, index, count);
+  const auto ok = std::count_if(cells.begin(), cells.end(),
+                                [](const auto& c) { return c.status() == matrix::Status::ok; });
+  fmt::print("shard {}: {} of {} cells ran\n", o.shard, ok, cells.size());
+}
 
 void run(const Options& o, matrix::Form form) {
   const PluginLoader loader = o.plugins.load();
@@ -37,6 +50,7 @@ void run(const Options& o, matrix::Form form) {
   Progress progress = o.engine.progress();
   const EngineOptions options = o.engine.options();
   const Engine engine(options, progress);
+  if (!o.shard.empty()) return run_shard(o, spec, loader.registry(), options, engine);
   const auto results = run_study(spec, loader.registry(), {o.out, o.jobs, options, o.plugins.path},
                                  engine, o.update_baseline);
   fmt::print("{}\n{}\n{}\n", table_text(make_table(results), colour()),
@@ -52,6 +66,8 @@ CLI::App* add(CLI::App& app, const std::shared_ptr<Options>& o, const char* name
   sub->add_option("--out,-o", o->out, "Folder for results; new, empty, or of an earlier run");
   sub->add_option("--jobs", o->jobs, "Cells side by side; 0 = as many as threads")
       ->capture_default_str();
+  sub->add_option("--shard", o->shard,
+                  "I/N: run only this part of the cells, into the cache; judge nothing");
   o->plugins.add_to(*sub);
   o->engine.add_to(*sub);
   return sub;

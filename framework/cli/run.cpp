@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "host.hpp"
 #include "shards/plan.hpp"
 
@@ -24,18 +22,6 @@ void print_metrics(const std::vector<Metric>& metrics) {
   for (const auto& m : metrics) width = std::max(width, m.name.size());
   for (const auto& m : metrics)
     fmt::print("{:<{}}  {:>10.4g} {}\n", m.name, width, m.value, m.unit);
-}
-
-// "2/5" -> {2, 5}
-std::pair<std::size_t, std::size_t> parse_shard(const std::string& text) {
-  std::size_t index = 0, count = 0;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, index);
-  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
-  if (!slash || std::from_chars(first.ptr + 1, end, count).ptr != end || index < 1 || index > count)
-    throw Error(ErrorCode::config, "--shard",
-                fmt::format("expected I/N with 1 <= I <= N, found '{}'", text));
-  return {index, count};
 }
 
 void run_shard(const Options& o) {

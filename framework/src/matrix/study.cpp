@@ -62,4 +62,15 @@ Results run_study(const Spec& spec, const Registry& registry, const RunSettings&
   return results;
 }
 
+// Neighbours begin alike, so a part is a block of them: it shares most within itself.
+std::vector<CellResult> run_study_shard(const Spec& spec, const Registry& registry,
+                                        const RunSettings& settings, const Engine& engine,
+                                        std::size_t index, std::size_t count) {
+  const auto all = make_cells(spec, registry);
+  const auto begin = all.begin() + std::ptrdiff_t(all.size() * (index - 1) / count);
+  const auto end = all.begin() + std::ptrdiff_t(all.size() * index / count);
+  open_folder(settings.out, spec);
+  return run_cells(spec, {begin, end}, settings, engine);
+}
+
 }  // namespace cambium::matrix

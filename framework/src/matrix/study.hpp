@@ -12,4 +12,9 @@ namespace cambium::matrix {
 Results run_study(const Spec& spec, const Registry& registry, const RunSettings& settings,
                   const Engine& engine, bool update_baseline);
 
+/// Runs the `index`-th of `count` parts of the cells (from 1) into the cache and judges nothing.
+std::vector<CellResult> run_study_shard(const Spec& spec, const Registry& registry,
+                                        const RunSettings& settings, const Engine& engine,
+                                        std::size_t index, std::size_t count);
+
 }  // namespace cambium::matrix
