@@ -70,13 +70,13 @@ Known run_optimize(Known known, const StepScope& scope) {
   std::vector<Solution> solutions(graphs.size());
   const Configured& c = scope.step.configured;
   scope.run_items(graphs.size(), [&](std::size_t i) {
-    bool hit = false;
+    Making making;
     const PoseGraph& g = graphs[i].graph;
-    solutions[i] = scope.cached<Solution>(c, graph_key(g), hit, [&](const Context& context) {
+    solutions[i] = scope.cached<Solution>(c, graph_key(g), making, [&](const Context& context) {
       return c.as<Solver>().solve(g, context);
     });
     check(solutions[i], g, scope.step);
-    return hit;
+    return making;
   });
 
   double before = 0, after = 0;

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
 #include "cambium/error.hpp"
 
 namespace cambium {
@@ -94,8 +96,9 @@ void check_one_document(const std::string& text, const std::string& file,
   YAML::Parser parser(stream);
   DocumentStart document;
   if (parser.HandleNextDocument(document) && parser.HandleNextDocument(document))
-    diagnostics.add(place(file, document.mark), "a second document begins here, or something that "
-                                                "belongs to none; expected one document");
+    diagnostics.add(place(file, document.mark),
+                    "a second document begins here, or something that "
+                    "belongs to none; expected one document");
 }
 
 template <class T>
@@ -153,6 +156,26 @@ std::string Yaml::shown() const {
       break;
   }
   return fmt::format("'{}'", scalar);
+}
+
+std::string to_flow(const Yaml& y) {
+  const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
+  std::string out;
+  switch (y.type) {
+    case Yaml::Type::null:
+      return "null";
+    case Yaml::Type::scalar:
+      // Quotes would make texts of numbers and of true and false.
+      return !y.quoted && (y.as_double() || y.as_bool()) ? y.scalar : quoted(y.scalar);
+    case Yaml::Type::list:
+      for (const Yaml& e : y.list) out += (out.empty() ? "" : ", ") + to_flow(e);
+      return "[" + out + "]";
+    case Yaml::Type::map:
+      for (const auto& [key, value] : y.map)
+        out += (out.empty() ? "" : ", ") + quoted(key.scalar) + ": " + to_flow(value);
+      break;
+  }
+  return "{" + out + "}";
 }
 
 Yaml merged(Yaml base, const Yaml& over) {
