@@ -176,7 +176,7 @@ TEST_F(Matrix, ABatchGoesOnAfterABrokenDataset) {
 TEST(ShippedMatrices, AreOfTheCommittedSchema) {
   EXPECT_EQ(run_cambium({"matrix", "--schema"}).out,
             read_file(std::string(CAMBIUM_SOURCE_DIR) + "/schemas/matrix.schema.json"))
-      << "run: build/bin/cambium matrix --schema > schemas/matrix.schema.json";
+      << "run: ./bootstrap generate";
 }
 
 TEST(ShippedMatrices, TheSmallOneIsAsGoodAsItsBaseline) {
