@@ -62,7 +62,7 @@ EngineOptions EngineFlags::options() const {
   std::signal(SIGTERM, &on_signal);
   EngineOptions o;
   o.threads = threads;
-  o.memory = parse_bytes(memory);
+  o.memory = parse_bytes(memory, "--memory");
   if (cache.empty())
     o.cache = default_cache_folder();
   else if (cache != "none")
@@ -71,16 +71,27 @@ EngineOptions EngineFlags::options() const {
   return o;
 }
 
-std::size_t parse_bytes(const std::string& text) {
+std::size_t parse_bytes(const std::string& text, const char* option) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string unit(end, text.data() + text.size());
   const std::string units = "KMGT";
   const auto power = unit.empty() ? 0 : int(units.find(char(std::toupper(unit[0])))) + 1;
   if (error != std::errc{} || !(value > 0) || unit.size() > 1 || (power == 0 && !unit.empty()))
-    throw Error(ErrorCode::config, "--memory",
+    throw Error(ErrorCode::config, option,
                 fmt::format("expected a size such as 500M or 4G, found '{}'", text));
   return std::size_t(value * std::pow(1024.0, power));
+}
+
+std::pair<std::size_t, std::size_t> parse_shard(const std::string& text) {
+  std::size_t index = 0, count = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, index);
+  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+  if (!slash || std::from_chars(first.ptr + 1, end, count).ptr != end || index < 1 || index > count)
+    throw Error(ErrorCode::config, "--shard",
+                fmt::format("expected I/N with 1 <= I <= N, found '{}'", text));
+  return {index, count};
 }
 
 }  // namespace cambium::cli

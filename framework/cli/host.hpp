@@ -32,8 +32,11 @@ struct EngineFlags {
   EngineOptions options() const;  ///< installs the Ctrl-C handler
 };
 
-/// "4G", "500M", "1.5G", plain bytes. Throws Error(config).
-std::size_t parse_bytes(const std::string& text);
+/// "4G", "500M", "1.5G", plain bytes. Throws Error(config) naming `option`.
+std::size_t parse_bytes(const std::string& text, const char* option);
+
+/// "2/5" -> {2, 5}. Throws Error(config) unless 1 <= I <= N.
+std::pair<std::size_t, std::size_t> parse_shard(const std::string& text);
 
 /// Every command adds itself; its callback runs it. Errors leave as cambium::Error.
 void add_run(CLI::App& app);
@@ -43,5 +46,11 @@ void add_schema(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
+void add_cache(CLI::App& app);
+void add_matrix(CLI::App& app);
+void add_batch(CLI::App& app);
+void add_compare(CLI::App& app);
+void add_plan(CLI::App& app);
+void add_merge(CLI::App& app);
 
 }  // namespace cambium::cli

@@ -21,6 +21,12 @@ int run(int argc, char** argv) {
   add_plugins(app);
   add_schema(app);
   add_simulate(app);
+  add_cache(app);
+  add_matrix(app);
+  add_batch(app);
+  add_compare(app);
+  add_plan(app);
+  add_merge(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -32,14 +38,24 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
+// A full disk behind `cambium ... > file` shows only when the buffer is written.
+int flushed(int code) {
+  if (std::fflush(stdout) == 0) return code;
+  std::perror("error: the output cannot be written");
+  return code == 0 ? int(cambium::ErrorCode::data) : code;
+}
+
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return flushed(run(argc, argv));
   } catch (const cambium::Error& e) {
     fmt::print(stderr, "error: {}\n", e.what());
     return int(e.code());
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory; try a smaller --memory or fewer --threads\n");
+    return int(cambium::ErrorCode::data);
+  } catch (const std::filesystem::filesystem_error& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
     return int(cambium::ErrorCode::data);
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: {}\n", e.what());

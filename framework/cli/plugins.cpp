@@ -26,17 +26,16 @@ void list(const Registry& registry) {
 }
 
 void describe(const Registry& registry, const std::string& name) {
-  bool found = false;
+  std::string sections;
   std::vector<std::string> names;
   for (const auto& [key, c] : registry.all()) {
     names.push_back(c.name);
-    if (c.name != name) continue;
-    fmt::print("{}", describe_markdown(c));
-    found = true;
+    if (c.name == name) sections += describe_markdown(c);
   }
-  if (!found)
+  if (sections.empty())
     throw Error(ErrorCode::config, "",
                 fmt::format("no plugin is called '{}'{}", name, suggestion(name, names)));
+  fmt::print("{}", sections);
 }
 
 }  // namespace
@@ -51,9 +50,14 @@ void add_plugins(CLI::App& app) {
     list(options->load().registry());
   });
   auto name = std::make_shared<std::string>();
-  CLI::App* d = sub->add_subcommand("describe", "One plugin with its parameters, as Markdown");
-  d->fallthrough()->add_option("NAME", *name, "As in a pipeline")->required();
-  d->callback([options, name] { describe(options->load().registry(), *name); });
+  CLI::App* d = sub->add_subcommand("describe", "One plugin, or all, with the parameters, as Markdown");
+  d->fallthrough()->add_option("NAME", *name, "As in a pipeline; all when it is missing");
+  d->callback([options, name] { const PluginLoader loader = options->load();
+    if (name->empty())
+      fmt::print("{}", reference_markdown(loader.registry()));
+    else
+      describe(loader.registry(), *name);
+  });
 }
 
 }  // namespace cambium::cli

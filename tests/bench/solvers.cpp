@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every solver on every well-known pose graph:
-//   bench_solvers POSE_GRAPHS [NAME=YAML]...
+//   bench_solvers [--peers PYTHON] POSE_GRAPHS [NAME=YAML]...
 // POSE_GRAPHS is the unpacked archive with REFERENCE.json. Without names: every solver, its
-// defaults.
-#include <chrono>
+// defaults. --peers adds GTSAM by gtsam_peer.py, run by that interpreter, in the same run. Pin the
+// whole to one core (taskset -c 0); the seconds are those of the CPU.
 #include <cstdio>
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "cambium/dialect.hpp"
@@ -18,10 +19,9 @@ namespace {
 
 using Entry = std::pair<std::string, std::string>;  // solver, parameters
 
-std::vector<Entry> entries(int argc, char** argv) {
+std::vector<Entry> entries(const std::vector<std::string>& names) {
   std::vector<Entry> out;
-  for (int i = 2; i < argc; ++i) {
-    const std::string text = argv[i];
+  for (const std::string& text : names) {
     const std::size_t at = text.find('=');
     out.emplace_back(text.substr(0, at), at == std::string::npos ? "{}" : text.substr(at + 1));
   }
@@ -33,30 +33,60 @@ std::vector<Entry> entries(int argc, char** argv) {
   return out;
 }
 
-void bench(const std::string& set, const PoseGraph& graph, double reference, const Entry& entry) {
-  const auto context = make_context();
-  const auto solver = component<Solver>(entry.first, entry.second);
-  const auto start = std::chrono::steady_clock::now();
-  const Solution s = solver->solve(graph, *context);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const double F = cost(graph, s.T_map_node);
-  std::printf("| %-14s | %-24s | %10d | %7.3f | %14.6f | %12.9f |\n", set.c_str(),
-              (entry.second == "{}" ? entry.first : entry.first + " " + entry.second).c_str(),
-              s.iterations, seconds.count(), F, F / reference);
+void row(const std::string& set, const std::string& solver, int iterations, double seconds,
+         double F, double reference) {
+  std::printf("| %-14s | %-24s | %10d | %7.3f | %14.6f | %12.9f |\n", set.c_str(), solver.c_str(),
+              iterations, seconds, F, F / reference);
   std::fflush(stdout);
 }
 
+void bench(const std::string& set, const PoseGraph& graph, double reference, const Entry& entry) {
+  const auto context = make_context();
+  const auto solver = component<Solver>(entry.first, entry.second);
+  const std::clock_t start = std::clock();
+  const Solution s = solver->solve(graph, *context);
+  const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+  row(set, entry.second == "{}" ? entry.first : entry.first + " " + entry.second, s.iterations,
+      seconds, cost(graph, s.T_map_node), reference);
+}
+
+void bench_gtsam(const std::string& python, const std::string& set,
+                 const std::filesystem::path& file, double reference) {
+  const std::string command =
+      python + " " CAMBIUM_SOURCE_DIR "/tests/bench/gtsam_peer.py " + file.string();
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  int iterations = 0;
+  double seconds = 0, F = 0;
+  const bool ran = pipe && std::fscanf(pipe, "%d %lf %lf", &iterations, &seconds, &F) == 3;
+  if (pipe) ::pclose(pipe);
+  if (ran)
+    row(set, "GTSAM (peer)", iterations, seconds, F, reference);
+  else
+    std::printf("| %-14s | GTSAM (peer) did not run: %s |\n", set.c_str(), command.c_str());
+}
+
 int run(int argc, char** argv) {
-  if (argc < 2) return std::fputs("usage: bench_solvers POSE_GRAPHS [NAME=YAML]...\n", stderr), 2;
-  const std::filesystem::path folder = argv[1];
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::string python;
+  if (arguments.size() > 1 && arguments[0] == "--peers") {
+    python = arguments[1];
+    arguments.erase(arguments.begin(), arguments.begin() + 2);
+  }
+  if (arguments.empty())
+    return std::fputs("usage: bench_solvers [--peers PYTHON] POSE_GRAPHS [NAME=YAML]...\n", stderr),
+           2;
+  const std::filesystem::path folder = arguments[0];
+  arguments.erase(arguments.begin());
   const auto reference = nlohmann::json::parse(read_file(folder / "REFERENCE.json"));
   std::printf("| %-14s | %-24s | iterations | seconds | %14s |  F/reference |\n", "set", "solver",
               "F");
   std::puts("|---|---|---:|---:|---:|---:|");
   for (const char* set : {"tinyGrid3D", "smallGrid3D", "parking-garage", "sphere2500", "torus3D"}) {
-    const auto graph = pose_graph_from(read_g2o(folder / set / (std::string(set) + ".g2o")));
-    for (const auto& entry : entries(argc, argv))
-      bench(set, graph, reference.at(set).at("canon"), entry);
+    const auto file = folder / set / (std::string(set) + ".g2o");
+    const auto graph = pose_graph_from(read_g2o(file));
+    const double optimum = reference.at(set).at("canon");
+    for (const auto& entry : entries(arguments)) bench(set, graph, optimum, entry);
+    if (!python.empty()) bench_gtsam(python, set, file, optimum);
   }
   return 0;
 }

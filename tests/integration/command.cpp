@@ -3,12 +3,14 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "cambium/files.hpp"
@@ -17,8 +19,15 @@
 namespace cambium::testing {
 namespace {
 
+// A disk is full for the child when a file would grow beyond the limit: EFBIG in place of ENOSPC.
+void limit_files(std::size_t bytes) {
+  const rlimit limit{bytes, bytes};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
 pid_t start(std::vector<std::string> arguments, const std::filesystem::path& out,
-            const std::filesystem::path& err) {
+            const std::filesystem::path& err, std::optional<std::size_t> largest_file = {}) {
   arguments.insert(arguments.begin(), CAMBIUM_PROGRAM);
   std::vector<char*> argv;
   for (auto& a : arguments) argv.push_back(a.data());
@@ -28,6 +37,7 @@ pid_t start(std::vector<std::string> arguments, const std::filesystem::path& out
   ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
   ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
   ::setenv("CAMBIUM_CACHE", (out.parent_path() / "cache").c_str(), 1);
+  if (largest_file) limit_files(*largest_file);
   ::execv(argv[0], argv.data());
   ::_exit(127);
 }
@@ -46,11 +56,19 @@ Outcome run_cambium(const std::vector<std::string>& arguments) {
   return finish(start(arguments, folder / "out", folder / "err"), folder / "out", folder / "err");
 }
 
-Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds) {
+Outcome run_cambium_on_full_disk(const std::vector<std::string>& arguments,
+                                 std::size_t largest_file) {
+  const TemporaryFolder folder;
+  return finish(start(arguments, folder / "out", folder / "err", largest_file), folder / "out",
+                folder / "err");
+}
+
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds,
+                                int signal) {
   const TemporaryFolder folder;
   const pid_t child = start(arguments, folder / "out", folder / "err");
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  ::kill(child, SIGINT);
+  ::kill(child, signal);
   return finish(child, folder / "out", folder / "err");
 }
 

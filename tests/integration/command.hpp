@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the command line as a user would.
 #pragma once
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,8 +19,13 @@ struct Outcome {
 /// one.
 Outcome run_cambium(const std::vector<std::string>& arguments);
 
-/// The same, interrupted (SIGINT) after `seconds`.
-Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds);
+/// The same, interrupted by a signal after `seconds`.
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds,
+                                int signal = SIGINT);
+
+/// The same where no file can become larger than `largest_file` bytes.
+Outcome run_cambium_on_full_disk(const std::vector<std::string>& arguments,
+                                 std::size_t largest_file);
 
 nlohmann::json read_json(const std::filesystem::path& path);
 

@@ -54,7 +54,7 @@ TEST(Spec, RefusesWhatIsNoSpecification) {
 TEST(Spec, CommittedSchemaIsThatOfTheCode) {
   const std::string path = CAMBIUM_SOURCE_DIR "/schemas/simulate.schema.json";
   EXPECT_EQ(read_file(path), spec_schema().dump(2) + "\n")
-      << "run: cambium simulate --schema > schemas/simulate.schema.json";
+      << "run: ./bootstrap generate";
 }
 
 // Every key with its default and its meaning stands in a table of the documentation.

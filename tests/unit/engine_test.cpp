@@ -62,15 +62,20 @@ struct AcceptAll final : LoopVerifier {
   }
 };
 
-struct StandStill final : Solver {
+struct StandStill : Solver {
   Solution solve(const PoseGraph& g, const Context&) const override {
-    return {g.T_map_node, std::vector<double>(g.relative.size(), 1.0), 0, true, ""};
+    Solution s;
+    s.T_map_node = g.T_map_node;
+    s.weight.assign(g.relative.size(), 1.0);
+    s.converged = true;
+    s.marginals.assign(g.marginals.size(), Mat6(0.25 * Mat6::Identity()));
+    return s;
   }
 };
 
-struct NotANumber final : Solver {
-  Solution solve(const PoseGraph& g, const Context&) const override {
-    Solution s{g.T_map_node, std::vector<double>(g.relative.size(), 1.0), 0, true, ""};
+struct NotANumber final : StandStill {
+  Solution solve(const PoseGraph& g, const Context& context) const override {
+    Solution s = StandStill::solve(g, context);
     s.T_map_node[0].t.x() = std::nan("");
     return s;
   }
@@ -178,6 +183,30 @@ TEST_F(EngineRun, SaysWhichPartOfTheKeyChanged) {
       << text;
   EXPECT_NE(text.find("optimize still: nothing changed, taken from the cache"), std::string::npos)
       << text;
+}
+
+TEST_F(EngineRun, ReportsTheSigmasOfChosenNodes) {
+  write_file(folder / "p.yaml", "version: 1\nsteps: [{optimize: still, marginals: [bb/2]}]\n");
+  const auto r = run({mission("a"), mission("bb")}, "out");
+  const auto& figures = r.steps.at(0).figures;
+  const auto at = std::find_if(figures.begin(), figures.end(),
+                               [](const Score& f) { return f.first == "bb/2.sigma_yaw"; });
+  ASSERT_NE(at, figures.end());
+  EXPECT_EQ(at->second, 0.5);
+
+  for (const auto& [name, complaint] : {std::pair{"bbb/2", "did you mean 'bb'?"},
+                                        {"a/77", "found no node 77 in 'a'"},
+                                        {"a", "expected MISSION/ID"}}) {
+    write_file(folder / "p.yaml",
+               std::string("version: 1\nsteps: [{optimize: still, marginals: [") + name + "]}]\n");
+    try {
+      run({mission("a"), mission("bb")}, "bad");
+      FAIL() << name;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ErrorCode::config);
+      EXPECT_NE(std::string(e.what()).find(complaint), std::string::npos) << e.what();
+    }
+  }
 }
 
 TEST_F(EngineRun, RefusesWhatIsNotARunFolder) {

@@ -58,6 +58,23 @@ TEST(G2o, VertexKindsAndStamps) {
   EXPECT_EQ(m.name, "graph");
 }
 
+TEST(G2o, OdometryMayRunBackwardsWhenAllOfItDoes) {
+  const std::string three = two_nodes + "VERTEX_SE3:QUAT 2 0 0 0 0 0 0 1\n";
+  const std::string back = "EDGE_SE3:QUAT 1 0 0 0 0 0 0 0 1" + information + "\n";
+  const std::string far = "EDGE_SE3:QUAT 2 0 0 0 0 0 0 0 1" + information + "\n";
+  const Mission all = parse(three + back + far);
+  EXPECT_EQ(all.edges[0].kind, EdgeKind::odometry);
+  EXPECT_EQ(all.edges[0].tail, 1);
+  EXPECT_EQ(all.edges[1].kind, EdgeKind::loop);
+  ASSERT_EQ(all.warnings.size(), 1u);
+  EXPECT_NE(all.warnings[0].find("it is taken for odometry"), std::string::npos);
+
+  const Mission mixed =
+      parse(three + back + "EDGE_SE3:QUAT 1 2 0 0 0 0 0 0 1" + information + "\n");
+  EXPECT_EQ(mixed.edges[0].kind, EdgeKind::loop);
+  EXPECT_EQ(mixed.edges[1].kind, EdgeKind::odometry);
+}
+
 TEST(G2o, EdgeKinds) {
   const Mission m = parse(
       "EDGE_SE3:QUAT 1 2 0 0 0 0 0 0 1" + information + "\n" +  // before its vertices

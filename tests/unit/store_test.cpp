@@ -1,78 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cache on disk, the store in memory, and the form of results in both.
-#include <fstream>
-#include <thread>
-
-#include "cambium/files.hpp"
-#include "engine/cache.hpp"
+// The store in memory, and the form of results in it and in the cache.
 #include "engine/codec.hpp"
 #include "engine/memory_store.hpp"
 #include "support/support.hpp"
 
 using namespace cambium;
-namespace fs = std::filesystem;
 
 namespace {
 
 Digest key(int i) { return digest_bytes(std::to_string(i)); }
 
-fs::path only_file(const fs::path& folder) {
-  for (const auto& e : fs::recursive_directory_iterator(folder))
-    if (e.is_regular_file()) return e.path();
-  return {};
-}
-
 }  // namespace
-
-TEST(Cache, GivesBackWhatWasPut) {
-  const cambium::testing::TemporaryFolder folder;
-  const Cache cache(folder.path());
-  EXPECT_FALSE(cache.get(key(1)));
-  cache.put(key(1), std::string("a\0b", 3));
-  EXPECT_EQ(cache.get(key(1)), std::string("a\0b", 3));
-  EXPECT_FALSE(cache.get(key(2)));
-}
-
-TEST(Cache, WithoutAFolderKeepsNothing) {
-  const Cache cache(std::nullopt);
-  cache.put(key(1), "x");
-  EXPECT_FALSE(cache.get(key(1)));
-}
-
-TEST(Cache, DamagedEntriesAreAbsent) {
-  const cambium::testing::TemporaryFolder folder;
-  const Cache cache(folder.path());
-  const std::string content(1000, 'x');
-  for (const std::size_t keep :
-       {std::size_t{0}, std::size_t{7}, std::size_t{23}, std::size_t{500}}) {
-    cache.put(key(1), content);
-    fs::resize_file(only_file(folder.path()), keep);
-    EXPECT_FALSE(cache.get(key(1))) << keep;
-  }
-  cache.put(key(1), content);
-  std::fstream file(only_file(folder.path()), std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(600).put('y');
-  file.close();
-  EXPECT_FALSE(cache.get(key(1)));
-  EXPECT_TRUE(only_file(folder.path()).empty());  // gone, so that it is written again
-}
-
-TEST(Cache, ManyWritersOfOneKeyLeaveOneWholeEntry) {
-  const cambium::testing::TemporaryFolder folder;
-  const Cache cache(folder.path());
-  const std::string content(100000, 'z');
-  std::vector<std::thread> writers;
-  for (int t = 0; t < 4; ++t)
-    writers.emplace_back([&] {
-      for (int i = 0; i < 20; ++i) {
-        cache.put(key(1), content);
-        const auto got = cache.get(key(1));
-        if (got) EXPECT_EQ(*got, content);
-      }
-    });
-  for (auto& w : writers) w.join();
-  EXPECT_EQ(cache.get(key(1)), content);
-}
 
 TEST(MemoryStore, KeepsTheBudgetAndForgetsTheLeastRecentlyUsed) {
   MemoryStore store(100);

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cambium/mission.hpp"
@@ -20,9 +19,6 @@ struct NodeRef {
 
 enum class LoopState { candidate, registered, accepted, rejected };
 const char* to_string(LoopState state);
-
-/// A named figure beside a loop: "overlap", "rmse", ...
-using Score = std::pair<std::string, double>;
 
 /// A pair of nodes that may have seen the same place, from its proposal to its verdict.
 /// This is one row of the ledger.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cambium/payload.hpp"
@@ -15,6 +16,9 @@
 namespace cambium {
 
 using NodeId = std::int64_t;
+
+/// A named figure beside a result: "overlap", "rmse", ...
+using Score = std::pair<std::string, double>;
 
 struct Stamp {
   std::int64_t sec = 0;

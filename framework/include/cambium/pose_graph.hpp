@@ -52,6 +52,7 @@ struct PoseGraph {
   std::vector<AttitudeFactor> attitude;
   std::vector<PriorFactor> priors;
   std::vector<PositionFactor> positions;
+  std::vector<std::size_t> marginals;  ///< nodes whose covariance is wanted
 };
 
 struct Solution {
@@ -60,6 +61,10 @@ struct Solution {
   int iterations = 0;
   bool converged = false;
   std::string message;  ///< why it stopped
+  std::vector<Score> scores;  ///< for the report: "gradient_norm", "condition", ...
+  /// One per PoseGraph::marginals, or none when the solver gives none: of (translation in the map
+  /// frame [m]; rotation in the node's [rad]), given the nodes that are held.
+  std::vector<Mat6> marginals;
 };
 
 /// r = [R_tail'(t_head - t_tail) - t ; 2 vec(q^-1 q_tail^-1 q_head)], the scalar part made >= 0.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cache.hpp"
 
+#include <chrono>
 #include <cstdlib>
-#include <cstring>
 
 #include "cambium/error.hpp"
 #include "cambium/files.hpp"
@@ -12,21 +12,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An entry is magic, digest of the content, content. The digest finds what a full disk, a crash or
-// a bad sector left behind, so an entry needs no fsync: a lost one is computed again.
-constexpr char magic[8] = {'C', 'A', 'M', 'B', 'I', 'U', 'M', '1'};
-constexpr std::size_t header = sizeof magic + sizeof(Digest);
+void make_folder(const fs::path& folder, ErrorCode code) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Error(code, folder.string(),
+                "the cache folder cannot be made: " + error.message() +
+                    "; choose another with --cache DIR, or --cache none");
+}
+
+// Pruning goes by the time of last use. An hour is fine enough, and spares most hits the write.
+void note_use(const fs::path& file) {
+  std::error_code ignored;
+  const auto now = fs::file_time_type::clock::now();
+  if (now - fs::last_write_time(file, ignored) > std::chrono::hours(1))
+    fs::last_write_time(file, now, ignored);
+}
 
 }  // namespace
 
-Cache::Cache(std::optional<fs::path> folder) : folder_(std::move(folder)) {
-  if (!folder_) return;
-  std::error_code error;
-  fs::create_directories(*folder_, error);
-  if (error)
-    throw Error(ErrorCode::config, folder_->string(),
-                "the cache folder cannot be made: " + error.message() +
-                    "; choose another with --cache DIR, or --cache none");
+Cache::Cache(std::optional<fs::path> folder, Warn warn)
+    : folder_(std::move(folder)), warn_(std::move(warn)) {
+  if (folder_) make_folder(*folder_, ErrorCode::config);
 }
 
 fs::path Cache::file(const Digest& key) const {
@@ -34,7 +41,7 @@ fs::path Cache::file(const Digest& key) const {
   return *folder_ / name.substr(0, 2) / name.substr(2);
 }
 
-std::optional<std::string> Cache::get(const Digest& key) const {
+std::optional<CacheEntry> Cache::get(const Digest& key) const {
   if (!folder_) return std::nullopt;
   const fs::path path = file(key);
   std::error_code error;
@@ -45,24 +52,24 @@ std::optional<std::string> Cache::get(const Digest& key) const {
   } catch (const Error&) {
     return std::nullopt;  // pruned by another process at this moment
   }
-  Digest stored;
-  if (bytes.size() >= header && std::memcmp(bytes.data(), magic, sizeof magic) == 0) {
-    std::memcpy(&stored, bytes.data() + sizeof magic, sizeof stored);
-    bytes.erase(0, header);
-    if (digest_bytes(bytes) == stored) return bytes;
+  auto entry = unpack(bytes);
+  if (entry) {
+    note_use(path);
+  } else {
+    fs::remove(path, error);
+    if (warn_)
+      warn_(path.string() +
+            ": the content does not fit its digest; the entry is removed and computed again");
   }
-  fs::remove(path, error);
-  return std::nullopt;
+  return entry;
 }
 
-void Cache::put(const Digest& key, std::string_view bytes) const {
+void Cache::put(const Digest& key, const CacheEntry& entry) const {
   if (!folder_) return;
   const fs::path path = file(key);
-  fs::create_directories(path.parent_path());
+  make_folder(path.parent_path(), ErrorCode::data);
   AtomicFile out(path, AtomicFile::Durability::rename_only);
-  const Digest digest = digest_bytes(bytes);
-  out.stream().write(magic, sizeof magic);
-  out.stream().write(reinterpret_cast<const char*>(&digest), sizeof digest);
+  const std::string bytes = pack(entry);
   out.stream().write(bytes.data(), std::streamsize(bytes.size()));
   out.commit();
 }

@@ -145,7 +145,7 @@ void fields(A& a, Verdict& x) {
 }
 template <class A>
 void fields(A& a, Solution& x) {
-  a(x.T_map_node, x.weight, x.iterations, x.converged, x.message);
+  a(x.T_map_node, x.weight, x.iterations, x.converged, x.message, x.scores, x.marginals);
 }
 template <class A>
 void fields(A& a, GeoReference& x) {

@@ -51,7 +51,8 @@ Engine::Engine(const EngineOptions& options, Progress& progress)
       cancelled_(options.cancelled),
       threads_(thread_count(options.threads)),
       arena_(threads_),
-      cache_(options.cache),
+      cache_(options.cache,
+             [&progress](const std::string& text) { progress.log(LogLevel::warning, text); }),
       store_(std::make_shared<MemoryStore>(options.memory)),
       scratch_(make_scratch()),
       build_(program_build()) {}

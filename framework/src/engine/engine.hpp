@@ -3,6 +3,7 @@
 // progress display.
 #pragma once
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -20,6 +21,12 @@ struct EngineOptions {
   std::size_t memory = 4ull << 30;  ///< budget for payloads [bytes]
   std::optional<std::filesystem::path> cache;
   const std::atomic<bool>* cancelled = nullptr;  ///< set by a signal handler
+};
+
+/// How a result came about.
+struct Making {
+  bool hit = false;    ///< it came from the cache
+  double seconds = 0;  ///< what making it took, now or when it was made
 };
 
 class Engine {
@@ -41,16 +48,19 @@ class Engine {
   /// A context for one work item; its seed depends on the item's key only.
   std::unique_ptr<Context> context(const Digest& item, std::uint64_t pipeline_seed) const;
 
-  /// The cached result under `key`, or that of `compute`, which is then kept. Sets `hit`.
+  /// The cached result under `key`, or that of `compute`, which is then kept under `kind`.
   template <class T>
-  T cached(const Digest& key, bool& hit, const std::function<T()>& compute) const {
-    if (const auto bytes = cache_.get(key)) {
-      hit = true;
-      return decode<T>(*bytes);
+  T cached(const Digest& key, const std::string& kind, Making& making,
+           const std::function<T()>& compute) const {
+    if (const auto entry = cache_.get(key)) {
+      making = {true, entry->seconds};
+      return decode<T>(entry->bytes);
     }
-    hit = false;
+    const auto begin = std::chrono::steady_clock::now();
     T value = compute();
-    cache_.put(key, encode(value));
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    making = {false, spent.count()};
+    cache_.put(key, {kind, spent.count(), encode(value)});
     return value;
   }
 

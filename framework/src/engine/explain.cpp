@@ -11,7 +11,7 @@ namespace {
 // "rings: 20 -> 30" for parameters, the bare part's name for digests.
 std::string difference(const std::string& part, const std::string& before,
                        const std::string& after) {
-  if (part != "params" && part != "step") return part;
+  if (!part.starts_with("params") && part != "step") return part;
   const Json a = Json::parse(before, nullptr, false), b = Json::parse(after, nullptr, false);
   std::string text;
   for (const auto& [name, value] : b.items()) {
@@ -20,7 +20,8 @@ std::string difference(const std::string& part, const std::string& before,
       text +=
           fmt::format("{}{}: {} -> {}", text.empty() ? "" : ", ", name, old.dump(), value.dump());
   }
-  return text.empty() ? part : text;
+  if (text.empty() || part == "params" || part == "step") return text.empty() ? part : text;
+  return part + ": " + text;
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ std::string Explainer::explain(std::size_t index, const StepRecord& step) const 
   if (step.items > 0 && step.cached == step.items)
     return title + "nothing changed, taken from the cache";
   if (!previous_.is_object() || !previous_.contains("steps"))
-    return title + "no earlier run in this folder";
+    return title + "no earlier run was finished in this folder";
   const Json& steps = previous_["steps"];
   if (index >= steps.size() || steps[index]["verb"] != step.verb ||
       steps[index]["plugin"] != step.plugin)

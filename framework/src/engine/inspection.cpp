@@ -59,14 +59,13 @@ void look_at_poses(const Mission& mission, Inspection& out) {
 }
 
 void look_at_edges(const Mission& mission, Inspection& out) {
-  Tally flat, backward;
+  Tally flat;
   std::vector<double> residuals;
   for (const Edge& edge : mission.edges) {
     ++out.edges[to_string(edge.kind)];
     if (edge.kind != EdgeKind::position &&
         definiteness(edge.information) == Definiteness::semidefinite)
       flat.add(edge.line);
-    if (edge.kind == EdgeKind::loop && edge.tail - edge.head == 1) backward.add(edge.line);
     if (edge.kind != EdgeKind::odometry) continue;
     const auto tail = mission.index_of(edge.tail), head = mission.index_of(edge.head);
     if (!tail || !head) continue;
@@ -77,11 +76,6 @@ void look_at_edges(const Mission& mission, Inspection& out) {
   }
   flat.report(mission, "the information is singular: the edge leaves a direction free",
               out.findings);
-  if (residuals.empty())
-    backward.report(mission,
-                    "no edge is odometry (head = tail + 1): edges between neighbours run "
-                    "backwards (head = tail - 1) and count as loop closures",
-                    out.findings);
   if (residuals.empty()) return;
   std::sort(residuals.begin(), residuals.end());
   out.median_odometry_residual = residuals[residuals.size() / 2];

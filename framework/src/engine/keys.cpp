@@ -19,17 +19,27 @@ Digest payloads_key(const Atlas& atlas, std::size_t mission) {
 
 Digest poses_key(const std::vector<SE3>& poses) { return digest_bytes(encode(poses)); }
 
-Digest atlas_key(const Atlas& atlas) {
-  Hasher hasher;
+std::vector<std::pair<std::string, Digest>> atlas_key_parts(const Atlas& atlas) {
+  Hasher missions, payloads, poses, islands;
   for (std::size_t m = 0; m < atlas.missions.size(); ++m) {
     const MissionState& s = atlas.missions[m];
-    hasher.add(s.mission->name).add(s.mission->digest).add(poses_key(*s.T_map_node));
-    hasher.add(std::uint64_t(s.island)).add(std::uint64_t(s.id_offset));
-    hasher.add(payloads_key(atlas, m));
+    missions.add(s.mission->name).add(s.mission->digest).add(std::uint64_t(s.id_offset));
+    payloads.add(payloads_key(atlas, m));
+    poses.add(poses_key(*s.T_map_node));
+    islands.add(std::uint64_t(s.island));
   }
-  hasher.add(encode(atlas.loops));
   for (const Island& island : atlas.islands)
-    hasher.add(encode(island.missions)).add(encode(island.georeference));
+    islands.add(encode(island.missions)).add(encode(island.georeference));
+  return {{"missions", missions.digest()},
+          {"payloads", payloads.digest()},
+          {"poses", poses.digest()},
+          {"loops", digest_bytes(encode(atlas.loops))},
+          {"islands", islands.digest()}};
+}
+
+Digest atlas_key(const Atlas& atlas) {
+  Hasher hasher;
+  for (const auto& [part, digest] : atlas_key_parts(atlas)) hasher.add(digest);
   return hasher.digest();
 }
 

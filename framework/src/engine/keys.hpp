@@ -9,7 +9,9 @@ Digest payloads_key(const Atlas& atlas, std::size_t mission);  ///< of all paylo
 Digest payload_key(const Atlas& atlas, NodeRef node);          ///< zero when it has none
 Digest poses_key(const std::vector<SE3>& poses);
 
-/// Of everything: missions, poses, payloads, loops, islands.
-Digest atlas_key(const Atlas& atlas);
+/// Of each part by its name: missions, payloads, poses, loops, islands.
+std::vector<std::pair<std::string, Digest>> atlas_key_parts(const Atlas& atlas);
+
+Digest atlas_key(const Atlas& atlas);  ///< of all parts together
 
 }  // namespace cambium

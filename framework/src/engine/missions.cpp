@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "cambium/dialect.hpp"
+
 namespace cambium {
 namespace {
 
@@ -145,7 +147,10 @@ Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const En
   engine.parallel_for(sources.size(), [&](std::size_t i) {
     const auto context = engine.context(digest_bytes(sources[i].path.string()), pipeline.seed);
     missions[i] = sources[i].reader.as<MissionReader>().read(sources[i].path, *context);
-    if (!sources[i].spec.name.empty()) missions[i].name = sources[i].spec.name;
+    if (!sources[i].spec.name.empty()) {
+      missions[i].name = sources[i].spec.name;
+      missions[i].digest = mission_digest(missions[i]);  // the name is part of it
+    }
     check_mission(missions[i], sources[i]);
     engine.progress().advance();
   });

@@ -34,7 +34,8 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void print(const std::string& text) { fmt::print(stderr, "{}", text); }
+// Unlike fmt::print this does not throw when stderr goes to a full disk: the run goes on.
+void print(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "engine/program.hpp"
 
 namespace cambium {
@@ -69,17 +71,12 @@ Json step_json(const StepRecord& s) {
   for (const auto& [part, value] : s.key) key[part] = value;
   Json files = Json::array();
   for (const auto& f : s.files) files.push_back(f.string());
-  return {{"verb", s.verb},
-          {"plugin", s.plugin},
-          {"label", s.label},
-          {"seconds", s.seconds},
-          {"items", s.items},
-          {"cached_items", s.cached},
-          {"cached", s.items > 0 && s.items == s.cached},
-          {"summary", s.summary},
-          {"figures", scores_json(s.figures)},
-          {"files", files},
-          {"key", key}};
+  return {{"verb", s.verb},           {"plugin", s.plugin},
+          {"label", s.label},         {"seconds", s.seconds},
+          {"work_seconds", s.work},   {"items", s.items},
+          {"cached_items", s.cached}, {"cached", s.items > 0 && s.items == s.cached},
+          {"summary", s.summary},     {"figures", scores_json(s.figures)},
+          {"files", files},           {"key", key}};
 }
 
 Json loop_json(const Atlas& atlas, const Loop& l) {
@@ -108,12 +105,23 @@ Json loop_json(const Atlas& atlas, const Loop& l) {
 
 }  // namespace
 
+Json metric_json(const Metric& m) {
+  return {{"name", m.name}, {"unit", m.unit}, {"value", m.value}, {"better", to_string(m.better)}};
+}
+
+Metric read_metric(const Json& json) {
+  Metric m{json.at("name"), 0, json.at("unit"), Better::neither};
+  const Json& value = json.at("value");  // JSON knows no NaN: it was written as null
+  m.value = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  for (const Better b : {Better::lower, Better::higher})
+    if (json.at("better") == to_string(b)) m.better = b;
+  return m;
+}
+
 Json report_json(const Known& known, const std::vector<StepRecord>& steps,
                  const std::vector<std::string>& warnings) {
   Json metrics = Json::array(), step_list = Json::array();
-  for (const auto& m : known.metrics)
-    metrics.push_back(
-        {{"name", m.name}, {"unit", m.unit}, {"value", m.value}, {"better", to_string(m.better)}});
+  for (const auto& m : known.metrics) metrics.push_back(metric_json(m));
   for (const auto& s : steps) step_list.push_back(step_json(s));
   return {{"cambium", program_version()},
           {"missions", missions_json(known.atlas)},

@@ -9,6 +9,9 @@ namespace cambium {
 
 using Json = nlohmann::ordered_json;
 
+Json metric_json(const Metric& metric);
+Metric read_metric(const Json& json);  ///< throws nlohmann::json::exception
+
 /// `missions`, `islands`, `steps`, `metrics`; see docs/formats.md.
 Json report_json(const Known& known, const std::vector<StepRecord>& steps,
                  const std::vector<std::string>& warnings);

@@ -77,28 +77,49 @@ ResolvedPipeline resolve(const Pipeline& pipeline, const Registry& registry) {
   return out;
 }
 
-std::string to_yaml(const ResolvedPipeline& p) {
+namespace {
+
+std::string missions_yaml(const std::vector<MissionSpec>& missions) {
+  if (missions.empty()) return "missions: []\n";
   const auto quoted = [](const std::string& s) { return nlohmann::json(s).dump(); };
-  std::string out = fmt::format("version: 1\nseed: {}\nmissions:\n", p.spec.seed);
-  for (const auto& m : p.spec.missions) out += fmt::format("  - path: {}\n", quoted(m.path));
-  if (p.spec.missions.empty()) out += "  []\n";
-  out += "steps:\n";
-  std::map<int, std::map<std::string, std::string>> platforms;
-  for (const auto& s : p.steps) {
-    out += fmt::format("  - {}: {}\n", s.verb->word, s.plugin);
-    StepKeys keys = s.keys;
-    for (const auto& k : list_params(keys))
-      out += fmt::format("    {}: {}\n", k.name, k.value.dump());
-    out += fmt::format("    params: {}\n", s.configured.params);
-    for (const auto& [id, c] : s.by_platform) platforms[id][s.verb->word] = c.params;
+  std::string out = "missions:\n";
+  for (const MissionSpec& m : missions) {
+    out += fmt::format("  - path: {}\n", quoted(m.path));
+    if (!m.name.empty()) out += fmt::format("    name: {}\n", quoted(m.name));
+    if (!m.reader.empty()) out += fmt::format("    reader: {}\n", m.reader);
+    if (!m.params.is_null()) out += fmt::format("    params: {}\n", to_flow(m.params));
   }
-  if (!platforms.empty()) out += "platforms:\n";
+  return out;
+}
+
+// What a platform overrides, not the whole parameters: those differ between steps of one verb.
+std::string platforms_yaml(const std::vector<StepSpec>& steps) {
+  std::map<int, std::map<std::string, std::string>> platforms;
+  for (const StepSpec& s : steps)
+    for (const auto& [id, params] : s.platform_params)
+      platforms[id][s.verb->word] = to_flow(params);
+  std::string out = platforms.empty() ? "" : "platforms:\n";
   for (const auto& [id, words] : platforms) {
     out += fmt::format("  {}:\n", id);
     for (const auto& [word, params] : words)
       out += fmt::format("    {}: {{params: {}}}\n", word, params);
   }
   return out;
+}
+
+}  // namespace
+
+std::string to_yaml(const ResolvedPipeline& p) {
+  std::string out =
+      fmt::format("version: 1\nseed: {}\n{}steps:\n", p.spec.seed, missions_yaml(p.spec.missions));
+  for (const auto& s : p.steps) {
+    out += fmt::format("  - {}: {}\n", s.verb->word, s.plugin);
+    StepKeys keys = s.keys;
+    for (const auto& k : list_params(keys))
+      out += fmt::format("    {}: {}\n", k.name, k.value.dump());
+    out += fmt::format("    params: {}\n", s.configured.params);
+  }
+  return out + platforms_yaml(p.spec.steps);
 }
 
 }  // namespace cambium

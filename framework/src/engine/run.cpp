@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "cambium/dialect.hpp"
@@ -11,6 +12,7 @@
 #include "engine/explain.hpp"
 #include "engine/keys.hpp"
 #include "engine/missions.hpp"
+#include "io/temporary.hpp"
 #include "pipeline/params.hpp"
 
 namespace cambium {
@@ -29,19 +31,25 @@ void open_run_folder(const fs::path& out) {
   std::error_code error;
   fs::create_directories(out, error);
   if (error) throw Error(ErrorCode::data, out.string(), "cannot be made: " + error.message());
+  remove_orphans(out);
 }
 
-std::vector<std::pair<std::string, std::string>> key_parts(const Step& step, const Known& known,
-                                                           const Engine& engine,
-                                                           std::uint64_t seed) {
+KeyParts key_parts(const Step& step, const Known& known, const Engine& engine, std::uint64_t seed) {
   StepKeys keys = step.keys;
-  return {{"program", engine.build().hex()},       {"plugin", step.registered->build.hex()},
-          {"params", step.configured.params},      {"step", canonical_params(keys)},
-          {"input", atlas_key(known.atlas).hex()}, {"seed", std::to_string(seed)}};
+  KeyParts parts = {{"program", engine.build().hex()},
+                    {"plugin", step.registered->build.hex()},
+                    {"params", step.configured.params},
+                    {"step", canonical_params(keys)},
+                    {"seed", std::to_string(seed)}};
+  for (const auto& [id, c] : step.by_platform)
+    parts.emplace_back(fmt::format("params of platform {}", id), c.params);
+  for (const auto& [part, digest] : atlas_key_parts(known.atlas))
+    parts.emplace_back(part, digest.hex());
+  return parts;
 }
 
 StepRecord run_step(const Step& step, Known& known, const Engine& engine, std::uint64_t seed,
-                    const fs::path& out) {
+                    const fs::path& out, const Share* share = nullptr) try {
   StepRecord record;
   record.verb = step.verb->word;
   record.plugin = step.plugin;
@@ -51,11 +59,24 @@ StepRecord run_step(const Step& step, Known& known, const Engine& engine, std::u
   record.key = key_parts(step, known, engine, seed);
   const auto begin = std::chrono::steady_clock::now();
   engine.progress().begin(step.title());
-  known = step_function(step.verb->kind)(std::move(known), {step, engine, seed, out, record});
+  known =
+      step_function(step.verb->kind)(std::move(known), {step, engine, seed, out, record, share});
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (record.items > 0 && record.cached == record.items) record.summary += " (cached)";
   engine.progress().end(record.summary);
   return record;
+} catch (const Cancelled&) {
+  throw;
+} catch (const Error& e) {
+  throw Error(e.code(), e.where(),
+              fmt::format("{} (in step '{}', {})", e.message(), step.title(), step.where));
+}
+
+Known read(const ResolvedPipeline& pipeline, const Registry& registry, const Engine& engine) {
+  Known known;
+  known.atlas = read_missions(pipeline.spec, registry, engine);
+  known.streams["main"] = known.atlas.payloads;
+  return known;
 }
 
 void warn_of_islands(const Atlas& atlas, Progress& progress) {
@@ -87,9 +108,9 @@ ResolvedPipeline prepare_run(const RunOptions& options, const Registry& registry
   Pipeline p = load_pipeline(options.pipeline, options.overrides);
   if (options.seed) p.seed = *options.seed;
   if (!options.missions.empty()) p.missions.clear();
-  // Absolute, as those of a file become: resolved.yaml is read from another folder than this one.
+  // Absolute, as those of a file: resolved.yaml lies elsewhere and must mean the same missions.
   for (const auto& m : options.missions)
-    p.missions.push_back({fs::absolute(m).string(), "", "", {}, "command line"});
+    p.missions.push_back({fs::absolute(m).lexically_normal().string(), "", "", {}, "command line"});
   return resolve(p, registry);
 }
 
@@ -102,17 +123,9 @@ RunResult run_pipeline(const RunOptions& options, const ResolvedPipeline& pipeli
 
   RunResult result;
   Known& known = result.known;
-  known.atlas = read_missions(pipeline.spec, registry, engine);
-  known.streams["main"] = known.atlas.payloads;
+  known = read(pipeline, registry, engine);
   for (const Step& step : pipeline.steps) {
-    try {
-      result.steps.push_back(run_step(step, known, engine, pipeline.spec.seed, options.out));
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const Error& e) {
-      throw Error(e.code(), e.where(),
-                  fmt::format("{} (in step '{}', {})", e.message(), step.title(), step.where));
-    }
+    result.steps.push_back(run_step(step, known, engine, pipeline.spec.seed, options.out));
     if (options.explain)
       progress.log(LogLevel::info, explainer.explain(result.steps.size() - 1, result.steps.back()));
   }
@@ -123,6 +136,25 @@ RunResult run_pipeline(const RunOptions& options, const ResolvedPipeline& pipeli
   result.report = report_json(known, result.steps, progress.warnings());
   write_file(options.out / "report.json", result.report.dump(1) + "\n");
   return result;
+}
+
+std::vector<StepRecord> run_share(const ResolvedPipeline& pipeline, const Share& share,
+                                  const Registry& registry, const Engine& engine) {
+  const auto waves = waves_of(pipeline);
+  const auto last = std::find(waves.rbegin(), waves.rend(), share.wave);
+  if (share.wave == 0 || last == waves.rend())
+    throw Error(ErrorCode::config, "--wave",
+                fmt::format("the pipeline has no wave {}", share.wave));
+  std::vector<StepRecord> records;
+  Known known = read(pipeline, registry, engine);
+  for (std::size_t i = 0; i < std::size_t(waves.rend() - last); ++i) {
+    const Step& step = pipeline.steps[i];
+    // These read the map and change nothing in it.
+    if (step.verb->kind == Kind::map_exporter || step.verb->kind == Kind::evaluator) continue;
+    records.push_back(run_step(step, known, engine, pipeline.spec.seed, {},
+                               waves[i] == share.wave ? &share : nullptr));
+  }
+  return records;
 }
 
 }  // namespace cambium

@@ -2,6 +2,7 @@
 // A pipeline from YAML to run folder.
 #pragma once
 #include "engine/report.hpp"
+#include "engine/share.hpp"
 
 namespace cambium {
 
@@ -26,5 +27,10 @@ ResolvedPipeline prepare_run(const RunOptions& options, const Registry& registry
 /// Runs it and writes the run folder. Refuses a folder that holds something else.
 RunResult run_pipeline(const RunOptions& options, const ResolvedPipeline& pipeline,
                        const Registry& registry, const Engine& engine);
+
+/// Computes the share of a wave into the cache: the steps before the wave as in run_pipeline, then
+/// of the wave's own steps only the share, and nothing after it. Writes no run folder.
+std::vector<StepRecord> run_share(const ResolvedPipeline& pipeline, const Share& share,
+                                  const Registry& registry, const Engine& engine);
 
 }  // namespace cambium

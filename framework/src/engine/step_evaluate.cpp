@@ -42,13 +42,13 @@ Known run_evaluate(Known known, const StepScope& scope) {
   }
   std::vector<Metric> metrics;
   scope.run_items(1, [&](std::size_t) {
-    bool hit = false;
+    Making making;
     const Digest input =
         Hasher().add(atlas_key(known.atlas)).add(truth_key(reference, known.atlas)).digest();
-    metrics = scope.cached<std::vector<Metric>>(c, input, hit, [&](const Context& context) {
+    metrics = scope.cached<std::vector<Metric>>(c, input, making, [&](const Context& context) {
       return c.as<Evaluator>().evaluate(known.atlas, reference, context);
     });
-    return hit;
+    return making;
   });
   scope.record.metrics = metrics;
   const std::string& label = scope.step.keys.label;

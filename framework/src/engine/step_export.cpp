@@ -40,14 +40,16 @@ Known run_export(Known known, const StepScope& scope) {
   const Digest input = Hasher().add(atlas_key(known.atlas)).add("export").digest();
   Written written;
   scope.run_items(1, [&](std::size_t) {
-    bool hit = false;
+    Making making;
     const auto compute = [&](const Context& context) {
       return write(c, known.atlas, folder, context);
     };
-    written = scope.cached<Written>(c, input, hit, compute);
-    if (hit && still_there(written, folder)) return true;
-    if (hit) written = compute(*scope.engine.context(scope.item_key(c, input), scope.seed));
-    return false;
+    written = scope.cached<Written>(c, input, making, compute);
+    if (making.hit && !still_there(written, folder)) {
+      written = compute(*scope.engine.context(scope.item_key(c, input), scope.seed));
+      making.hit = false;
+    }
+    return making;
   });
   for (const auto& [name, digest] : written) scope.record.files.push_back(folder / name);
   scope.record.summary = fmt::format("{} file(s) in {}", written.size(), folder.string());

@@ -12,12 +12,12 @@ Known run_georeference(Known known, const StepScope& scope) {
   const Configured& c = scope.step.configured;
   const Digest atlas = atlas_key(known.atlas);
   scope.run_items(islands.size(), [&](std::size_t i) {
-    bool hit = false;
+    Making making;
     const Digest input = Hasher().add(atlas).add(std::uint64_t(i)).digest();
-    found[i] = scope.cached<GnssAlignment>(c, input, hit, [&](const Context& context) {
+    found[i] = scope.cached<GnssAlignment>(c, input, making, [&](const Context& context) {
       return c.as<GnssAligner>().align(known.atlas, islands[i], context);
     });
-    return hit;
+    return making;
   });
   std::size_t tied = 0;
   for (std::size_t i = 0; i < islands.size(); ++i) {

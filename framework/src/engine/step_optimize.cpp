@@ -6,6 +6,7 @@
 #include "engine/frames.hpp"
 #include "engine/graph.hpp"
 #include "engine/keys.hpp"
+#include "engine/marginals.hpp"
 #include "engine/steps.hpp"
 
 namespace cambium {
@@ -20,6 +21,7 @@ Digest graph_key(const PoseGraph& g) {
   for (const auto& f : g.attitude) e(std::uint64_t(f.node), f.up_node, f.sigma);
   for (const auto& f : g.priors) e(std::uint64_t(f.node), f.T_map_node, f.information);
   for (const auto& f : g.positions) e(std::uint64_t(f.node), f.t_map, f.information, f.robust);
+  for (const std::size_t node : g.marginals) e(std::uint64_t(node));
   return digest_bytes(e.bytes);
 }
 
@@ -63,17 +65,18 @@ Known run_optimize(Known known, const StepScope& scope) {
   std::vector<IslandGraph> graphs;
   for (std::uint32_t i = 0; i < atlas.islands.size(); ++i)
     graphs.push_back(build_graph(atlas, i, sigma, warn));
+  ask_for_marginals(atlas, scope.step.keys.marginals, graphs);
 
   std::vector<Solution> solutions(graphs.size());
   const Configured& c = scope.step.configured;
   scope.run_items(graphs.size(), [&](std::size_t i) {
-    bool hit = false;
+    Making making;
     const PoseGraph& g = graphs[i].graph;
-    solutions[i] = scope.cached<Solution>(c, graph_key(g), hit, [&](const Context& context) {
+    solutions[i] = scope.cached<Solution>(c, graph_key(g), making, [&](const Context& context) {
       return c.as<Solver>().solve(g, context);
     });
     check(solutions[i], g, scope.step);
-    return hit;
+    return making;
   });
 
   double before = 0, after = 0;
@@ -82,6 +85,10 @@ Known run_optimize(Known known, const StepScope& scope) {
     after += cost(graphs[i].graph, solutions[i].T_map_node, solutions[i].weight);
     scope.record.figures.emplace_back(fmt::format("island_{}.iterations", i),
                                       solutions[i].iterations);
+    for (const auto& [name, value] : solutions[i].scores)
+      scope.record.figures.emplace_back(fmt::format("island_{}.{}", i, name), value);
+    for (auto& figure : marginal_figures(atlas, graphs[i], solutions[i]))
+      scope.record.figures.push_back(std::move(figure));
     if (!solutions[i].converged)
       warn(fmt::format("island {}: the solver did not converge: {}", i, solutions[i].message));
     apply(solutions[i], graphs[i], atlas);

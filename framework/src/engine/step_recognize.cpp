@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/keys.hpp"
 #include "engine/steps.hpp"
@@ -16,6 +17,8 @@ struct Described {
 
 struct MissionPair {
   std::uint32_t query, reference;
+  std::vector<std::size_t> slices = {0};  // of the candidates, those to go on with
+  std::size_t of = 1;
 };
 
 std::vector<double> travelled(const Mission& mission) {
@@ -33,7 +36,23 @@ std::vector<MissionPair> mission_pairs(std::size_t count, const std::string& whi
   for (std::uint32_t query = 0; query < count; ++query)
     for (std::uint32_t reference = 0; reference <= query; ++reference)
       if (which == "all" || (query == reference) == (which == "within_missions"))
-        pairs.push_back({query, reference});
+        pairs.push_back({query, reference, {0}, 1});
+  return pairs;
+}
+
+// Of the pairs those that the share names, each with its slices.
+std::vector<MissionPair> shared(std::vector<MissionPair> pairs, const Share& share,
+                                const Atlas& atlas) {
+  const auto name = [&](std::uint32_t m) { return atlas.missions[m].mission->name; };
+  for (MissionPair& pair : pairs) {
+    pair.slices.clear();
+    for (const SharePart& part : share.parts) {
+      if (part.query != name(pair.query) || part.reference != name(pair.reference)) continue;
+      pair.slices.push_back(part.slice);
+      pair.of = part.slices;
+    }
+  }
+  std::erase_if(pairs, [](const MissionPair& pair) { return pair.slices.empty(); });
   return pairs;
 }
 
@@ -46,25 +65,31 @@ Digest describe_input(const Atlas& atlas, std::uint32_t m, bool poses) {
   return hasher.digest();
 }
 
-std::vector<Described> describe(const Atlas& atlas, const StepScope& scope) {
+// The missions that occur in the pairs.
+std::vector<Described> describe(const Atlas& atlas, const std::vector<MissionPair>& pairs,
+                                const StepScope& scope) {
+  std::set<std::size_t> needed;
+  for (const MissionPair& pair : pairs) needed.insert({pair.query, pair.reference});
+  const std::vector<std::size_t> work(needed.begin(), needed.end());
   std::vector<Described> out(atlas.missions.size());
-  scope.run_items(out.size(), [&](std::size_t m) {
+  scope.run_items(work.size(), [&](std::size_t i) {
+    const std::size_t m = work[i];
     const MissionView view{atlas, std::uint32_t(m)};
     const Configured& c = scope.step.for_platform(view.mission().platform_id);
     const auto& recognizer = c.as<PlaceRecognizer>();
-    bool hit = false;
+    Making making;
     out[m].fingerprints = scope.cached<Fingerprints>(
-        c, describe_input(atlas, std::uint32_t(m), recognizer.uses_poses()), hit,
+        c, describe_input(atlas, std::uint32_t(m), recognizer.uses_poses()), making,
         [&](const Context& context) { return recognizer.describe(view, context); });
     out[m].digest = digest_bytes(encode(out[m].fingerprints));
-    return hit;
+    return making;
   });
   return out;
 }
 
-std::vector<Candidate> match(const Atlas& atlas, MissionPair pair,
+std::vector<Candidate> match(const Atlas& atlas, const MissionPair& pair,
                              const std::vector<Described>& described, const StepScope& scope,
-                             bool& hit) {
+                             Making& making) {
   const Mission& query = *atlas.missions[pair.query].mission;
   const Mission& reference = *atlas.missions[pair.reference].mission;
   const Pairing pairing{pair.query == pair.reference, scope.step.keys.min_path, travelled(query),
@@ -79,13 +104,13 @@ std::vector<Candidate> match(const Atlas& atlas, MissionPair pair,
                            .add(std::uint64_t(pairing.within_mission))
                            .add(pairing.min_path)
                            .digest();
-  return scope.cached<std::vector<Candidate>>(c, input, hit, [&](const Context& context) {
+  return scope.cached<std::vector<Candidate>>(c, input, making, [&](const Context& context) {
     return c.as<PlaceRecognizer>().match(described[pair.query].fingerprints,
                                          described[pair.reference].fingerprints, pairing, context);
   });
 }
 
-Loop to_loop(const Candidate& c, MissionPair pair, const std::string& plugin) {
+Loop to_loop(const Candidate& c, const MissionPair& pair, const std::string& plugin) {
   Loop loop;
   loop.tail = {pair.reference, std::uint32_t(c.reference)};
   loop.head = {pair.query, std::uint32_t(c.query)};
@@ -139,19 +164,22 @@ std::size_t add_loops(std::vector<Loop>& loops, std::vector<Loop> found) {
 
 Known run_recognize(Known known, const StepScope& scope) {
   const Atlas& atlas = known.atlas;
-  const auto described = describe(atlas, scope);
-  const auto pairs = mission_pairs(atlas.missions.size(), scope.step.keys.pairs);
+  auto pairs = mission_pairs(atlas.missions.size(), scope.step.keys.pairs);
+  if (scope.share) pairs = shared(std::move(pairs), *scope.share, atlas);
+  const auto described = describe(atlas, pairs, scope);
   std::vector<std::vector<Candidate>> found(pairs.size());
   scope.run_items(pairs.size(), [&](std::size_t i) {
-    bool hit = false;
-    found[i] = match(atlas, pairs[i], described, scope, hit);
-    return hit;
+    Making making;
+    found[i] = match(atlas, pairs[i], described, scope, making);
+    return making;
   });
   std::vector<Loop> loops;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    for (const Candidate& c : found[i]) {
-      check(c, pairs[i], atlas, scope.step);
-      loops.push_back(to_loop(c, pairs[i], scope.step.plugin));
+    for (std::size_t k = 0; k < found[i].size(); ++k) {
+      check(found[i][k], pairs[i], atlas, scope.step);
+      const auto& slices = pairs[i].slices;
+      if (std::find(slices.begin(), slices.end(), k % pairs[i].of) != slices.end())
+        loops.push_back(to_loop(found[i][k], pairs[i], scope.step.plugin));
     }
   const std::size_t proposed = loops.size(), added = add_loops(known.atlas.loops, std::move(loops));
   scope.record.summary = fmt::format("{} candidates, {} of them new", proposed, added);

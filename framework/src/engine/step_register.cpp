@@ -32,7 +32,7 @@ std::shared_ptr<const Prepared> prepare(const Configured& c, const Atlas& atlas,
   return std::static_pointer_cast<const Prepared>(value);
 }
 
-Alignment align(const Atlas& atlas, const Loop& loop, const StepScope& scope, bool& hit) {
+Alignment align(const Atlas& atlas, const Loop& loop, const StepScope& scope, Making& making) {
   const Configured& c = registration_for(scope.step, atlas, loop);
   const SE3 T_guess = guess(atlas, loop);
   const Digest input = Hasher()
@@ -40,7 +40,7 @@ Alignment align(const Atlas& atlas, const Loop& loop, const StepScope& scope, bo
                            .add(payload_key(atlas, loop.head))
                            .add(encode(T_guess))
                            .digest();
-  return scope.cached<Alignment>(c, input, hit, [&](const Context& context) {
+  return scope.cached<Alignment>(c, input, making, [&](const Context& context) {
     const auto target = prepare(c, atlas, loop.tail, scope);
     const auto source = prepare(c, atlas, loop.head, scope);
     return c.as<Registration>().align(*target, *source, T_guess, context);
@@ -72,9 +72,9 @@ Known run_register(Known known, const StepScope& scope) {
     if (loops[i].state == LoopState::candidate) work.push_back(i);
   std::vector<Alignment> alignments(work.size());
   scope.run_items(work.size(), [&](std::size_t i) {
-    bool hit = false;
-    alignments[i] = align(known.atlas, loops[work[i]], scope, hit);
-    return hit;
+    Making making;
+    alignments[i] = align(known.atlas, loops[work[i]], scope, making);
+    return making;
   });
   std::size_t converged = 0;
   for (std::size_t i = 0; i < work.size(); ++i) {

@@ -15,12 +15,12 @@ Known run_verify(Known known, const StepScope& scope) {
   const Configured& c = scope.step.configured;
   std::vector<Verdict> verdicts;
   scope.run_items(1, [&](std::size_t) {
-    bool hit = false;
+    Making making;
     verdicts = scope.cached<std::vector<Verdict>>(
-        c, atlas_key(known.atlas), hit, [&](const Context& context) {
+        c, atlas_key(known.atlas), making, [&](const Context& context) {
           return c.as<LoopVerifier>().verify(known.atlas, work, context);
         });
-    return hit;
+    return making;
   });
   if (verdicts.size() != work.size())
     throw Error(ErrorCode::plugin, scope.step.registered->library,

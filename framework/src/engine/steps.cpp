@@ -3,15 +3,18 @@
 
 namespace cambium {
 
-void StepScope::run_items(std::size_t count, const std::function<bool(std::size_t)>& item) const {
+void StepScope::run_items(std::size_t count, const std::function<Making(std::size_t)>& item) const {
   engine.progress().expect(count);
-  std::atomic<std::size_t> cached{0};
+  std::vector<Making> makings(count);
   engine.parallel_for(count, [&](std::size_t i) {
-    if (item(i)) ++cached;
+    makings[i] = item(i);
     engine.progress().advance();
   });
   record.items += count;
-  record.cached += cached;
+  for (const Making& m : makings) {
+    record.cached += m.hit;
+    record.work += m.seconds;
+  }
 }
 
 Digest StepScope::item_key(const Configured& c, const Digest& input) const {

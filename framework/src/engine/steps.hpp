@@ -3,6 +3,7 @@
 #pragma once
 #include "engine/engine.hpp"
 #include "engine/resolve.hpp"
+#include "engine/share.hpp"
 
 namespace cambium {
 
@@ -12,16 +13,19 @@ struct Known {
   std::vector<Metric> metrics;
 };
 
+using KeyParts = std::vector<std::pair<std::string, std::string>>;
+
 /// What one step did, for the report.
 struct StepRecord {
   std::string verb, plugin, label;
   double seconds = 0;
   std::size_t items = 0, cached = 0;  ///< work items, and how many of them came from the cache
-  std::string summary;                ///< one line for the user
-  std::vector<std::pair<std::string, std::string>> key;  ///< named parts of its cache key
-  std::vector<Score> figures;                            ///< e.g. cost before and after
-  std::vector<std::filesystem::path> files;              ///< written by an export
-  std::vector<Metric> metrics;                           ///< of an evaluator, without label
+  double work = 0;  ///< what making its results took [s], now or then; the sum of the threads
+  std::string summary;                       ///< one line for the user
+  KeyParts key;                              ///< named parts of its cache key
+  std::vector<Score> figures;                ///< e.g. cost before and after
+  std::vector<std::filesystem::path> files;  ///< written by an export
+  std::vector<Metric> metrics;               ///< of an evaluator, without label
 };
 
 /// What a step may use.
@@ -31,16 +35,18 @@ struct StepScope {
   std::uint64_t seed;
   std::filesystem::path out;
   StepRecord& record;
+  const Share* share = nullptr;  ///< when other processes compute the rest of the step
 
-  /// Runs `count` work items side by side, counting and showing them. `item(i)` returns whether the
-  /// result came from the cache.
-  void run_items(std::size_t count, const std::function<bool(std::size_t)>& item) const;
+  /// Runs `count` work items side by side, counting and showing them. `item(i)` returns how the
+  /// result came about.
+  void run_items(std::size_t count, const std::function<Making(std::size_t)>& item) const;
   /// The cached result of one item. `input` is the digest of what it reads.
   template <class T>
-  T cached(const Configured& c, const Digest& input, bool& hit,
+  T cached(const Configured& c, const Digest& input, Making& making,
            const std::function<T(const Context&)>& compute) const {
     const Digest key = item_key(c, input);
-    return engine.cached<T>(key, hit, [&] { return compute(*engine.context(key, seed)); });
+    return engine.cached<T>(key, step.title(), making,
+                            [&] { return compute(*engine.context(key, seed)); });
   }
   Digest item_key(const Configured& c, const Digest& input) const;
 };

@@ -4,12 +4,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <sstream>
 
 #include "cambium/error.hpp"
+#include "io/temporary.hpp"
 
 namespace cambium {
 namespace {
@@ -22,13 +22,6 @@ void sync_to_disk(const std::filesystem::path& path) {
   const bool ok = ::fsync(fd) == 0;
   ::close(fd);
   if (!ok) throw Error(ErrorCode::data, path.string(), "cannot be synced: " + system_message());
-}
-
-std::filesystem::path temporary_name(const std::filesystem::path& path) {
-  static std::atomic<unsigned> counter{0};
-  // Keeps the extension: some writers choose the format by it.
-  return path.parent_path() / (".tmp-" + std::to_string(::getpid()) + "-" +
-                               std::to_string(counter++) + "-" + path.filename().string());
 }
 
 }  // namespace

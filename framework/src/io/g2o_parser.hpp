@@ -12,6 +12,11 @@
 
 namespace cambium {
 
+/// To the last bit, not up to the sign of the quaternion.
+inline bool same_pose(const SE3& a, const SE3& b) {
+  return a.t == b.t && a.q.coeffs() == b.q.coeffs();
+}
+
 class G2oParser {
  public:
   explicit G2oParser(const std::filesystem::path& file) : file_(file) {}
@@ -43,6 +48,7 @@ class G2oParser {
   void merge_repeated(Node& first, const Node& second);
   void apply_offsets();
   void check_edges();
+  void accept_backward_odometry();
   bool belongs_to_another_robot(const Edge& edge) const;
   void mark_fixed();
   void make_georeference();

@@ -25,4 +25,20 @@ std::string describe_markdown(const Registered& c) {
   return out + "\n";
 }
 
+std::string reference_markdown(const Registry& registry) {
+  std::string out =
+      "# Plugin reference\n\nMade by `cambium plugins describe`; each plugin's own README says when to "
+      "use it.\n";
+  std::string kind;
+  for (const auto& [key, component] : registry.all()) {
+    if (kind != to_string(component.kind)) {
+      kind = to_string(component.kind);
+      out += fmt::format("\n# {}\n\n", kind);
+    }
+    out += describe_markdown(component);
+  }
+  out.pop_back();  // one newline at the end
+  return out;
+}
+
 }  // namespace cambium

@@ -9,4 +9,7 @@ namespace cambium {
 /// A component with its parameters (default, bounds, meaning) as a Markdown section.
 std::string describe_markdown(const Registered& component);
 
+/// Every component by kind: docs/reference.md.
+std::string reference_markdown(const Registry& registry);
+
 }  // namespace cambium

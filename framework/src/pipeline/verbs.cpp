@@ -22,7 +22,7 @@ const std::vector<Verb>& verbs() {
       {"optimize",
        Kind::solver,
        false,
-       {"attitude_sigma"},
+       {"attitude_sigma", "marginals"},
        "Brings the missions together and relaxes all constraints"},
       {"georeference", Kind::gnss_aligner, false, {}, "Ties each island to the globe"},
       {"export",
@@ -74,6 +74,9 @@ void StepKeys::params(ParamVisitor& v) {
     v("attitude_sigma", attitude_sigma,
       "Trust in the roll and pitch that the missions measured by gravity; 0 = not used",
       between(0, 90, "deg"));
+  if (has("marginals"))
+    v("marginals", marginals,
+      "Nodes, as MISSION/ID, whose standard deviations the report shall state");
 }
 
 }  // namespace cambium

@@ -29,6 +29,7 @@ struct StepKeys : Component {
   std::string label;
   std::string reference;
   double attitude_sigma = 0;
+  std::vector<std::string> marginals;
 
   /// Only the keys that `verb` has are visited.
   explicit StepKeys(const Verb* verb = nullptr) : verb_(verb) {}

@@ -42,6 +42,9 @@ struct Yaml::Item {
   Yaml key, value;
 };
 
+/// The value on one line; reads back as the same value.
+std::string to_flow(const Yaml& yaml);
+
 /// `base` with the keys of `over` on top.
 Yaml merged(Yaml base, const Yaml& over);
 

@@ -37,7 +37,7 @@ constexpr Field fields[] = {
     {"sanitizer", &AbiStamp::sanitizer,
      "build both with the same sanitizer (0 none, 1 address, 2 thread)"},
     {"headers", &AbiStamp::headers,
-     "the public headers declare something else: build the plugin again, against this Cambium"}};
+     "build the plugin against the headers of this Cambium; they declare something else"}};
 
 void check_api(const PluginDescriptor& plugin, const std::string& library, const HostAbi& host) {
   const bool newer = plugin.api_major > host.major ||

@@ -70,8 +70,15 @@ fs::path checked_file(const fs::path& path) {
   return fs::canonical(path);
 }
 
+/// Whatever is wrong with a plugin's file is wrong with a plugin, also for the exit code.
+std::string read_library(const fs::path& library) try {
+  return read_file(library);
+} catch (const Error& e) {
+  throw Error(ErrorCode::plugin, library.string(), e.message());
+}
+
 std::string checked_content(const fs::path& library) {
-  std::string content = read_file(library);
+  std::string content = read_library(library);
   const auto descriptor = exported_data(content, symbol_name, library.string());
   if (!descriptor)
     throw Error(ErrorCode::plugin, library.string(),

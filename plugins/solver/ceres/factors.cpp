@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "factors.hpp"
 
-#include "information.hpp"
+#include "common/information.hpp"
 
 namespace cambium::ceres_solver {
 namespace {
@@ -58,11 +58,11 @@ bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
   return true;
 }
 
-RelativeCost::RelativeCost(const SE3& T_tail_head, const Mat6& information)
+RelativeCost::RelativeCost(const SE3& T_tail_head, const Mat6& information, double weight)
     : q_head_tail_(T_tail_head.q.conjugate()),
       R_head_tail_(q_head_tail_.toRotationMatrix()),
       t_tail_head_(T_tail_head.t) {
-  square_root(information, U_);
+  pose_solver::square_root(weight * information, U_);
 }
 
 bool RelativeCost::Evaluate(double const* const* poses, double* residuals,
@@ -109,8 +109,8 @@ bool AttitudeCost::Evaluate(double const* const* poses, double* residuals,
   return true;
 }
 
-PositionCost::PositionCost(const PositionFactor& f) : t_map_(f.t_map) {
-  square_root(f.information, U_);
+PositionCost::PositionCost(const PositionFactor& f, double weight) : t_map_(f.t_map) {
+  pose_solver::square_root(weight * f.information, U_);
 }
 
 bool PositionCost::Evaluate(double const* const* poses, double* residuals,

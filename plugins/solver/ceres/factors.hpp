@@ -27,10 +27,11 @@ class PoseManifold final : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
-/// U residual(T_tail_head, tail, head), U' U = information. A prior is one whose tail is the map.
+/// U residual(T_tail_head, tail, head), U' U = weight * information. A prior is one whose tail is
+/// the map.
 class RelativeCost final : public ceres::SizedCostFunction<6, 7, 7> {
  public:
-  RelativeCost(const SE3& T_tail_head, const Mat6& information);
+  RelativeCost(const SE3& T_tail_head, const Mat6& information, double weight);
   bool Evaluate(double const* const* poses, double* residuals, double** jacobians) const override;
 
  private:
@@ -51,7 +52,7 @@ class AttitudeCost final : public ceres::SizedCostFunction<3, 7> {
 
 class PositionCost final : public ceres::SizedCostFunction<3, 7> {
  public:
-  explicit PositionCost(const PositionFactor& factor);
+  PositionCost(const PositionFactor& factor, double weight);
   bool Evaluate(double const* const* poses, double* residuals, double** jacobians) const override;
 
  private:

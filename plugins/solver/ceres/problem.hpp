@@ -1,30 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A pose graph as a Ceres problem.
 #pragma once
+#include <ceres/loss_function.h>
 #include <ceres/problem.h>
 
 #include <deque>
+#include <memory>
 #include <vector>
 
+#include "common/loss.hpp"
+#include "common/weights.hpp"
 #include "factors.hpp"
-#include "loss.hpp"
 
 namespace cambium::ceres_solver {
+
+class CeresLoss final : public ceres::LossFunction {
+ public:
+  explicit CeresLoss(const pose_solver::Loss& loss) : loss_(loss) {}
+  void Evaluate(double s, double rho[3]) const override { loss_.evaluate(s, rho); }
+
+ private:
+  pose_solver::Loss loss_;
+};
 
 /// Owns what the problem points to. Deques, because cost functions cannot move.
 class PoseProblem {
  public:
   PoseProblem(const PoseGraph& graph, const std::vector<SE3>& start, const std::vector<bool>& held,
-              const Loss& loss);
+              const pose_solver::Weights& weights, const pose_solver::Loss& loss);
   ceres::Problem& problem() { return problem_; }
   std::vector<SE3> poses() const;
 
  private:
-  ceres::LossFunction* loss_for(bool robust) { return robust && loss_.robust() ? &loss_ : nullptr; }
-  void add_relative(const PoseGraph& graph);
-  void add_absolute(const PoseGraph& graph);
+  ceres::LossFunction* loss_for(bool robust) { return robust ? loss_.get() : nullptr; }
+  void add_relative(const PoseGraph& graph, const std::vector<double>& weight);
+  void add_absolute(const PoseGraph& graph, const std::vector<double>& position_weight);
 
-  Loss loss_;
+  std::unique_ptr<CeresLoss> loss_;  ///< none: all factors count by their squares
   PoseManifold manifold_;
   PoseBlock origin_ = to_block(SE3{});  ///< the map frame, the tail of every prior
   std::vector<PoseBlock> blocks_;

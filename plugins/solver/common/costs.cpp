@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/costs.hpp"
+
+namespace cambium::pose_solver {
+namespace {
+
+double squared(const RelativeFactor& f, const std::vector<SE3>& T) {
+  const Vec6 r = residual(f.T_tail_head, T[f.tail], T[f.head]);
+  return r.dot(f.information * r);
+}
+
+/// `add(node, cost)` of every factor, in a fixed order.
+template <class Add>
+void visit(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& weights,
+           const Loss& loss, const Add& add) {
+  const auto robust = [&](double s, bool is_robust) { return is_robust ? loss.value(s) : s; };
+  for (std::size_t k = 0; k < graph.relative.size(); ++k) {
+    const auto& f = graph.relative[k];
+    add(f.tail, weights.relative[k] * robust(squared(f, T), f.robust));
+  }
+  for (const auto& f : graph.priors) {
+    const Vec6 r = residual(f.T_map_node, SE3{}, T[f.node]);
+    add(f.node, r.dot(f.information * r));
+  }
+  for (std::size_t k = 0; k < graph.positions.size(); ++k) {
+    const auto& f = graph.positions[k];
+    const Vec3 r = T[f.node].t - f.t_map;
+    add(f.node, weights.positions[k] * robust(r.dot(f.information * r), f.robust));
+  }
+  for (const auto& f : graph.attitude) {
+    const Vec3 up = T[f.node].q.conjugate() * Vec3::UnitZ();
+    const Vec3 r = up - f.up_node * f.up_node.dot(up);
+    add(f.node, r.squaredNorm() / (f.sigma * f.sigma));
+  }
+}
+
+}  // namespace
+
+double robust_cost(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& weights,
+                   const Loss& loss) {
+  double F = 0;
+  visit(graph, T, weights, loss, [&](std::size_t, double f) { F += f; });
+  return F;
+}
+
+std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::size_t>& component,
+                                 const std::vector<SE3>& T, const Weights& weights,
+                                 const Loss& loss) {
+  std::vector<double> F(T.size());  // by component; the tail is unused
+  visit(graph, T, weights, loss, [&](std::size_t node, double f) { F[component[node]] += f; });
+  return F;
+}
+
+std::vector<double> squared_residuals(const PoseGraph& graph, const std::vector<SE3>& T) {
+  std::vector<double> out;
+  for (const auto& f : graph.relative) out.push_back(squared(f, T));
+  return out;
+}
+
+}  // namespace cambium::pose_solver

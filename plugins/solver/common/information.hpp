@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Information matrices as files bring them: not always symmetric, not always positive.
+#pragma once
+#include <Eigen/Core>
+
+namespace cambium::pose_solver {
+
+/// The nearest positive semi-definite matrix (Frobenius norm; Higham 1988): the symmetric part with
+/// its negative eigenvalues set to zero. Returns the smallest eigenvalue when it was
+/// negative, else 0.
+double project_to_psd(Eigen::Ref<Eigen::MatrixXd> information);
+
+/// Writes U with U' U = information (symmetric, positive semi-definite), so that |U r|^2 is
+/// r' Omega r. A Cholesky factor Omega = L L' gives U = L', not L.
+void square_root(const Eigen::Ref<const Eigen::MatrixXd>& information,
+                 Eigen::Ref<Eigen::MatrixXd> U);
+
+}  // namespace cambium::pose_solver

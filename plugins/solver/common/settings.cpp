@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/settings.hpp"
+
+namespace cambium::pose_solver {
+
+void Settings::params(ParamVisitor& v) {
+  auto losses = loss_names();
+  losses.push_back("gnc");
+  v("loss", loss,
+    "Robust loss on loops and positions; `none` trusts all of them, `gnc` (graduated "
+    "non-convexity) keeps each or drops it",
+    one_of(losses));
+  v("loss_width", loss_width, "Residuals above this many sigmas count as suspicious",
+    above(0.0, "sigma"));
+  v("initialization", initialization,
+    "`chordal` looks for a better start than the given poses; `given` starts from them",
+    one_of({"chordal", "given"}));
+  v("max_iterations", limits.iterations, "Gives up after this many", between(1, 100000));
+  v("tolerance", limits.tolerance, "Stops when a step lowers the cost by less than this fraction",
+    above(0.0));
+  v("diagnostics", diagnostics,
+    "Report the gradient and the condition of the normal equations, for one more factorisation");
+  v("certify", certify,
+    "Say whether the solution is proven to be the global optimum, or by how much the proof fails");
+}
+
+}  // namespace cambium::pose_solver
