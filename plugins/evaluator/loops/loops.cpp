@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Precision and recall of the accepted loops, by the true distance between their nodes.
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 
 #include "bins.hpp"
 #include "cambium/plugin.hpp"
 #include "cambium/truth.hpp"
+#include "common/relative_error.hpp"
 
 namespace loops {
 namespace {
 
 using namespace cambium;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// An accepted loop beside the truth.
 struct Judged {
@@ -27,9 +24,8 @@ struct Judged {
 
 Judged judge(const Loop& loop, const SE3& T_world_tail, const SE3& T_world_head) {
   const SE3 T_tail_head = T_world_tail.inverse() * T_world_head;
-  const SE3 error = T_tail_head.inverse() * loop.T_tail_head;
-  return {loop.tail, loop.head, (T_world_head.t - T_world_tail.t).norm(), error.t.norm(),
-          rotation_angle(error) / degree};
+  const auto error = evaluator::relative_error(T_tail_head, loop.T_tail_head);
+  return {loop.tail, loop.head, T_tail_head.t.norm(), error.translation, error.rotation};
 }
 
 Metric count(const std::string& name, std::size_t value, Better better) {

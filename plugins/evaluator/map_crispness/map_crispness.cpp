@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How well the scans of different passes agree: needs no truth, and is finer than most of it.
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-#include "agreement.hpp"
 #include "cambium/plugin.hpp"
-#include "cambium/statistics.hpp"
 #include "overlaps.hpp"
+#include "summary.hpp"
 
 namespace map_crispness {
 namespace {
 
 using namespace cambium;
-
-/// Two scans under the fused poses and, where they are known, under the true ones.
-struct Compared {
-  std::optional<Agreement> fused, truth;
-};
 
 using Pairs = std::vector<std::pair<NodeRef, NodeRef>>;
 
@@ -29,63 +19,6 @@ std::vector<std::pair<std::size_t, std::size_t>> by_target(const Pairs& pairs) {
     groups.back().second = i + 1;
   }
   return groups;
-}
-
-/// A figure of the pairs that have it.
-std::vector<double> finite(const std::vector<Agreement>& agreements, double Agreement::*figure) {
-  std::vector<double> out;
-  for (const Agreement& a : agreements)
-    if (std::isfinite(a.*figure)) out.push_back(a.*figure);
-  return out;
-}
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-}
-
-/// Medians of distances and the mean entropy, as `<prefix>median`, ...
-std::vector<Metric> summary(const std::vector<Agreement>& agreements, const std::string& prefix,
-                            Better better) {
-  std::vector<Metric> out;
-  const auto add = [&](const char* name, double Agreement::*figure) {
-    if (const auto values = finite(agreements, figure); !values.empty())
-      out.push_back({"map_crispness." + prefix + name, median(values), "m", better});
-  };
-  add("median", &Agreement::all);
-  add("ground", &Agreement::ground);
-  add("upright", &Agreement::upright);
-  if (const auto entropies = finite(agreements, &Agreement::entropy); !entropies.empty())
-    out.push_back({"map_crispness." + prefix + "entropy", mean(entropies), "nat", better});
-  return out;
-}
-
-std::vector<Metric> metrics_of(const std::vector<Compared>& compared) {
-  std::vector<Agreement> fused, beside_truth, truth;
-  double overlap = 0;
-  for (const Compared& c : compared) {
-    if (!c.fused) continue;
-    fused.push_back(*c.fused);
-    overlap += c.fused->overlap / double(compared.size());
-    if (!c.truth || !std::isfinite(c.fused->all) || !std::isfinite(c.truth->all)) continue;
-    beside_truth.push_back(*c.fused);
-    truth.push_back(*c.truth);
-  }
-  const auto distances = finite(fused, &Agreement::all);
-  std::vector<Metric> out = summary(fused, "", Better::lower);
-  out.push_back({"map_crispness.pairs", double(distances.size()), "pairs", Better::neither});
-  if (compared.empty()) return out;
-  out.push_back({"map_crispness.overlap", overlap, "", Better::higher});
-  if (distances.empty()) return out;
-  out.push_back({"map_crispness.worst", *std::max_element(distances.begin(), distances.end()), "m",
-                 Better::lower});
-  const auto of_truth = summary(truth, "truth.", Better::neither);
-  out.insert(out.end(), of_truth.begin(), of_truth.end());
-  const auto true_distances = finite(truth, &Agreement::all);
-  if (!true_distances.empty() && median(true_distances) > 0)
-    out.push_back({"map_crispness.ratio",
-                   median(finite(beside_truth, &Agreement::all)) / median(true_distances), "",
-                   Better::lower});
-  return out;
 }
 
 Surface surface_of(const Cloud& cloud, const SE3& T_map_node) {
@@ -129,7 +62,7 @@ class MapCrispness final : public Evaluator {
         compared[i] = compare(atlas, truth, target, pairs[i].first, pairs[i].second);
       }
     });
-    return metrics_of(compared);
+    return summary(compared);
   }
 
  private:
