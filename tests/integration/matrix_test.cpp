@@ -80,7 +80,7 @@ TEST_F(Matrix, ACellIsAPlainRunThatCanBeRepeatedByHand) {
 
 TEST_F(Matrix, CrashesAndHangsAreReportedAndTheRestGoesOn) {
   const auto outcome = run("matrix",
-                           "datasets: [{name: a, missions: [a]}]\ntime_limit: 2\n"
+                           "datasets: [{name: a, missions: [a]}]\ntime_limit: 8\n"
                            "axes: {optimize: [crash, hang, ceres]}\n");
   EXPECT_EQ(outcome.code, 1);
   const auto cells = results()["cells"];
