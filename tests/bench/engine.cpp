@@ -30,12 +30,14 @@ Known many_candidates(std::size_t count) {
   while (poses.size() * (poses.size() - 1) / 2 < count)
     poses.push_back(SE3::from_yaw(0, {double(poses.size()), 0, 0}));
   Known known;
-  known.atlas = testing::make_atlas({testing::make_mission("m", poses)});
+  known.atlas = cambium::testing::make_atlas({cambium::testing::make_mission("m", poses)});
   for (std::uint32_t head = 1; head < poses.size(); ++head)
     for (std::uint32_t tail = 0; tail < head && known.atlas.loops.size() < count; ++tail) {
       Loop loop;
       loop.tail = {0, tail};
       loop.head = {0, head};
+      loop.has_guess = true;  // another one each, so that no two items are the same
+      loop.T_tail_head = SE3::from_yaw(0, {double(known.atlas.loops.size()), 0, 0});
       known.atlas.loops.push_back(loop);
     }
   return known;
@@ -55,7 +57,7 @@ void run(const Known& known, const Step& step, const Engine& engine, const char*
 
 int main(int argc, char** argv) {
   const Known known = many_candidates(argc > 1 ? std::stoul(argv[1]) : 20000);
-  const testing::TemporaryFolder folder;
+  const cambium::testing::TemporaryFolder folder;
   Progress progress(Progress::Style::quiet);
   EngineOptions options;
   options.threads = argc > 2 ? std::stoi(argv[2]) : 1;

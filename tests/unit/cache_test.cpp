@@ -92,7 +92,9 @@ TEST(Cache, ManyWritersOfOneKeyLeaveOneWholeEntry) {
       for (int i = 0; i < 20; ++i) {
         cache.put(key(1), entry(content));
         const auto got = get(cache, 1);
-        if (got) EXPECT_EQ(*got, content);
+        if (got) {
+          EXPECT_EQ(*got, content);
+        }
       }
     });
   for (auto& w : writers) w.join();
