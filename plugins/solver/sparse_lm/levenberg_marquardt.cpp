@@ -10,7 +10,7 @@ namespace {
 using namespace pose_solver;
 
 /// When a step lowered the cost by less than this fraction, H is nearly what it was.
-constexpr double little = 0.01;
+constexpr double little = 0.03;
 
 /// Whether the cost will not fall by `tolerance` any more. Near the minimum the decreases shrink
 /// geometrically at least, so the last two tell the sum of those to come.
