@@ -38,7 +38,7 @@ PreparedScans prepare(const Registration& method, const std::vector<Scan>& scans
   std::vector<double> times;
   for (const Scan& scan : scans) {
     const double start = cpu_milliseconds();
-    out.clouds.push_back(method.prepare(scan.payload, *testing::make_context()));
+    out.clouds.push_back(method.prepare(scan.payload, *cambium::testing::make_context()));
     times.push_back(cpu_milliseconds() - start);
   }
   out.milliseconds = median(times);
@@ -78,7 +78,7 @@ void between_missions(const Registration& method, const Start& start) {
   constexpr std::array limits{2.0, 5.0, 10.0, 15.0};
   std::array<Tally, limits.size()> tallies;
   std::mt19937_64 random(7);
-  const auto context = testing::make_context();
+  const auto context = cambium::testing::make_context();
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j) {
       const SE3 truth = a[i].T_world_base.inverse() * b[j].T_world_base;
@@ -100,7 +100,7 @@ void along_path(const Registration& method, const std::string& name, const std::
                 std::size_t step) {
   const PreparedScans prepared = prepare(method, scans);
   Tally tally;
-  const auto context = testing::make_context();
+  const auto context = cambium::testing::make_context();
   for (std::size_t i = 0; i + step < scans.size(); i += step) {
     const SE3 truth = scans[i].T_world_base.inverse() * scans[i + step].T_world_base;
     const double begin = cpu_milliseconds();
@@ -117,7 +117,7 @@ void along_path(const Registration& method, const std::string& name, const std::
 
 int main(int argc, char** argv) try {
   if (argc < 2) return std::fprintf(stderr, "usage: %s PLUGIN [YAML]\n", argv[0]), 2;
-  const auto method = testing::component<Registration>(argv[1], argc > 2 ? argv[2] : "{}");
+  const auto method = cambium::testing::component<Registration>(argv[1], argc > 2 ? argv[2] : "{}");
   std::printf("%s %s\n", argv[1], argc > 2 ? argv[2] : "");
   std::printf(
       "| pairs | n | correct %% | accepted and correct %% | accepted but wrong | median m | deg | "
