@@ -87,8 +87,7 @@ std::optional<Found> Reference::locate(const Place& query, std::size_t node,
   if (best.matches.size() < std::size_t(accept.min_matches) || best.score < accept.min_score)
     return std::nullopt;
   const std::size_t r = nearest_node(best, end);
-  const double margin = best.score - rival(overlays, r, end);
-  if (margin < accept.min_margin) return std::nullopt;
+  if (rival(overlays, r, end) > (1 - accept.min_margin) * best.score) return std::nullopt;
   return Found{r, relative_pose(best, stems, query, node, r), best.score};
 }
 

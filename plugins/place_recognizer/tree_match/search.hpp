@@ -20,7 +20,7 @@ std::vector<Stem> stems_around(const Place& place, std::size_t node, const Query
 struct Acceptance {
   int min_matches = 10;     ///< stems that lie on one another
   double min_score = 25.0;  ///< log likelihood ratio
-  double min_margin = 5.0;  ///< of the score over the best hypothesis of another place
+  double min_margin = 0.4;  ///< share of the score by which any other place must stay below it
   double distinct = 2.0;    ///< hypotheses nearer than this are the same place [m]
   double drift = 0.05;      ///< two passes of one place may lie so far apart, of the path between
 };

@@ -65,7 +65,7 @@ std::vector<Pair> mutual_pairs(const std::vector<Tree>& target, const std::vecto
   return out;
 }
 
-// J = [R_target_map..., -R [p]x] in pose_graph.hpp's tangent: translation in the target's axes,
+// J = [I, -R [p]x] in pose_graph.hpp's tangent: translation in the target's axes,
 // rotation in the source's.
 Fit step(const std::vector<Tree>& target, const std::vector<Tree>& source,
          const std::vector<Pair>& pairs, const SE3& T, const Noise& noise, bool correct_tilt) {
@@ -89,14 +89,14 @@ Fit step(const std::vector<Tree>& target, const std::vector<Tree>& source,
     b += J.transpose() * weight.asDiagonal() * r;
   }
   // Gravity: roll and pitch are rotations about the horizontal axes of the target.
-  const double tilt = correct_tilt ? noise.tilt : 1e-6;
+  const double tilt = correct_tilt ? noise.tilt : 1e-5;
   const Mat3 gravity =
       R.transpose() * Vec3(1 / (tilt * tilt), 1 / (tilt * tilt), 0).asDiagonal() * R;
   H.bottomRightCorner<3, 3>() += gravity;
   Fit fit;
   fit.rmse = std::sqrt(squares / n);
   const Eigen::Matrix<double, 6, 6> damped =
-      H + 1e-9 * H.trace() * Eigen::Matrix<double, 6, 6>::Identity();
+      H + 1e-12 * H.trace() * Eigen::Matrix<double, 6, 6>::Identity();
   const Vec6 x = damped.ldlt().solve(b);
   fit.T_target_source.t = T.t + x.head<3>();
   Vec6 turn = Vec6::Zero();
