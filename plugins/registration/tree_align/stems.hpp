@@ -24,7 +24,7 @@ std::vector<Pair> mutual_pairs(const std::vector<cambium::Tree>& target,
 
 struct Noise {
   double stem = 0.08;  ///< of a stem's horizontal position [m]
-  double base = 0.5;   ///< of a base's height; the stems of a node err alike [m]
+  double base = 5.0;   ///< of a base's height; the stems of a node err alike [m]
   double tilt = 0.01;  ///< of roll and pitch of the guess: gravity is known [rad]
 };
 
