@@ -40,12 +40,18 @@ std::size_t Reference::nearest_node(const Overlay& overlay, std::uint32_t end) c
   return best;
 }
 
+// The density counts a stem once a pass, so where passes overlap the ratio is too low for right
+// answers with a hundred matches; the credit makes up for it.
+double Reference::confidence(const Overlay& overlay) const {
+  return overlay.score + limits_.acceptance.match_credit * double(overlay.matches.size());
+}
+
 // Wrong answers find many matches, too; what gives them away is that others find as many.
 double Reference::rival(const std::vector<Overlay>& overlays, std::size_t node,
                         std::uint32_t end) const {
-  constexpr double same_yaw = 0.17;  // [rad]
+  constexpr double same_yaw = 0.35;  // [rad]
   const Planar& best = overlays.front().T_reference_query;
-  double score = 0;
+  double highest = 0;
   for (const Overlay& o : overlays) {
     const Planar& other = o.T_reference_query;
     const double between = std::abs(place_.path[nearest_node(o, end)] - place_.path[node]);
@@ -53,9 +59,9 @@ double Reference::rival(const std::vector<Overlay>& overlays, std::size_t node,
     const double turned = std::remainder(other.yaw - best.yaw, 2 * std::numbers::pi);
     // Another pass along the same place is no rival: drift has moved its stems in the map.
     const double same = limits_.acceptance.distinct + limits_.acceptance.drift * between;
-    if (distance > same || std::abs(turned) > same_yaw) score = std::max(score, o.score);
+    if (distance > same || std::abs(turned) > same_yaw) highest = std::max(highest, confidence(o));
   }
-  return score;
+  return highest;
 }
 
 std::vector<Overlay> Reference::hypotheses(std::span<const Stem> stems, std::uint32_t end) const {
@@ -84,11 +90,14 @@ std::optional<Found> Reference::locate(const Place& query, std::size_t node,
   const Acceptance& accept = limits_.acceptance;
   if (overlays.empty()) return std::nullopt;
   const Overlay& best = overlays.front();
-  if (best.matches.size() < std::size_t(accept.min_matches) || best.score < accept.min_score)
+  const double sure = confidence(best);
+  if (best.matches.size() < std::size_t(accept.min_matches) || sure < accept.min_score)
     return std::nullopt;
   const std::size_t r = nearest_node(best, end);
-  if (rival(overlays, r, end) > (1 - accept.min_margin) * best.score) return std::nullopt;
-  return Found{r, relative_pose(best, stems, query, node, r), best.score};
+  if (rival(overlays, r, end) > (1 - accept.min_margin) * sure) return std::nullopt;
+  const SE3 T_reference_query = relative_pose(best, stems, query, node, r);
+  if (T_reference_query.t.head<2>().norm() > accept.max_distance) return std::nullopt;
+  return Found{r, T_reference_query, sure};
 }
 
 }  // namespace tree_match

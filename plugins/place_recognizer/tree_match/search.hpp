@@ -17,12 +17,15 @@ struct QueryLimits {
 /// The stems around a node, from the node, along the mission's axes.
 std::vector<Stem> stems_around(const Place& place, std::size_t node, const QueryLimits& limits);
 
+/// Confidence: the log likelihood ratio plus match_credit for each match.
 struct Acceptance {
-  int min_matches = 10;     ///< stems that lie on one another
-  double min_score = 25.0;  ///< log likelihood ratio
-  double min_margin = 0.4;  ///< share of the score by which any other place must stay below it
-  double distinct = 2.0;    ///< hypotheses nearer than this are the same place [m]
-  double drift = 0.05;      ///< two passes of one place may lie so far apart, of the path between
+  int min_matches = 24;       ///< stems that lie on one another
+  double match_credit = 0.5;  ///< added to the log likelihood ratio for each match
+  double min_score = 10.0;    ///< least confidence
+  double min_margin = 0.4;    ///< share of the confidence by which any other place stays below it
+  double distinct = 3.0;      ///< hypotheses nearer than this are the same place [m]
+  double drift = 0.05;        ///< two passes of one place may lie so far apart, of the path between
+  double max_distance = 35.0;  ///< of two nodes: a turn that is slightly wrong grows with it [m]
 };
 
 struct Limits {
@@ -41,7 +44,7 @@ struct Limits {
 struct Found {
   std::size_t reference = 0;  ///< node
   cambium::SE3 T_reference_query;
-  double score = 0;
+  double score = 0;  ///< confidence
 };
 
 /// A mission in which places are looked for. One instance serves all threads.
@@ -56,6 +59,7 @@ class Reference {
  private:
   std::vector<Overlay> hypotheses(std::span<const Stem> stems, std::uint32_t end) const;
   std::size_t nearest_node(const Overlay& overlay, std::uint32_t end) const;
+  double confidence(const Overlay& overlay) const;
   double rival(const std::vector<Overlay>& overlays, std::size_t node, std::uint32_t end) const;
   cambium::SE3 relative_pose(const Overlay& overlay, std::span<const Stem> stems,
                              const Place& query, std::size_t q, std::size_t r) const;

@@ -123,12 +123,16 @@ void TreeMatch::params(ParamVisitor& v) {
   pose_params(v);
   auto& accept = limits_.acceptance;
   v("min_matches", accept.min_matches, "Fewer matched stems are no place", between(3, 1000));
-  v("min_score", accept.min_score, "Least logarithm of the likelihood ratio", at_least(0.0));
+  v("match_credit", accept.match_credit,
+    "Added to the logarithm of the likelihood ratio for each matched stem", at_least(0.0));
+  v("min_score", accept.min_score, "Least logarithm of the likelihood ratio, with the credit",
+    at_least(0.0));
   v("min_margin", accept.min_margin,
     "Share of the score by which every other place must stay below it", between(0.0, 1.0));
   v("distinct", accept.distinct, "Hypotheses nearer than this are the same place", above(0.0, "m"));
   v("drift", accept.drift,
     "Two passes of a place lie apart by up to this share of the path between", between(0.0, 1.0));
+  v("max_distance", accept.max_distance, "Nodes farther apart are not proposed", above(0.0, "m"));
 }
 
 }  // namespace tree_match
