@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "alignment.hpp"
+
+#include <Eigen/Cholesky>
+#include <numbers>
+
+#include "cambium/fit.hpp"
+#include "cambium/statistics.hpp"
+
+namespace tree_match {
+namespace {
+
+using cambium::Quat;
+using cambium::SE3;
+using cambium::Vec3;
+
+Planar refit(const std::vector<Match>& matches, std::span<const Stem> query,
+             std::span<const Stem> reference) {
+  std::vector<Vec3> target, source;
+  for (const Match& m : matches) {
+    target.emplace_back(reference[m.reference].x, reference[m.reference].y, 0);
+    source.emplace_back(query[m.query].x, query[m.query].y, 0);
+  }
+  const SE3 T = cambium::fit_yaw(target, source);
+  return {T.t.x(), T.t.y(), T.yaw()};
+}
+
+/// Moves the feet of stems.
+struct Move {
+  explicit Move(const Planar& T)
+      : c(float(std::cos(T.yaw))), s(float(std::sin(T.yaw))), x(float(T.x)), y(float(T.y)) {}
+  std::array<float, 2> operator()(const Stem& p) const {
+    return {c * p.x - s * p.y + x, s * p.x + c * p.y + y};
+  }
+  float c, s, x, y;
+};
+
+bool alike(const Stem& a, const Stem& b, double max_dbh_difference) {
+  return a.dbh == 0 || b.dbh == 0 || std::abs(a.dbh - b.dbh) <= max_dbh_difference;
+}
+
+constexpr std::size_t fewest_to_fit = 3;
+constexpr double sigma_base = 0.3;  // of the difference of two bases [m]
+
+}  // namespace
+
+void Overlayer::match(std::span<const Stem> query, double radius, std::uint32_t end,
+                      Overlay& overlay) {
+  const Move move(overlay.T_reference_query);
+  std::vector<Match> found;
+  for (std::uint32_t q = 0; q < query.size(); ++q) {
+    const Stem& stem = query[q];
+    Match best{q, no_match, std::numeric_limits<float>::max()};
+    const auto p = move(stem);
+    grid_.within(p[0], p[1], float(radius), [&](std::uint32_t r, float squared) {
+      if (squared < best.squared && reference_[r].last < end &&
+          alike(stem, reference_[r], limits_.max_dbh_difference))
+        best = {q, r, squared};
+    });
+    if (best.reference == no_match) continue;
+    std::uint32_t& owner = owner_[best.reference];
+    if (owner == no_match) {
+      owner = std::uint32_t(found.size());
+      found.push_back(best);
+    } else if (best.squared < found[owner].squared) {
+      found[owner] = best;
+    }
+  }
+  for (const Match& m : found) owner_[m.reference] = no_match;
+  std::sort(found.begin(), found.end(),
+            [](const Match& a, const Match& b) { return a.query < b.query; });
+  overlay.matches = std::move(found);
+}
+
+Overlay Overlayer::start(std::span<const Stem> query, const Planar& T_reference_query,
+                         std::uint32_t end) {
+  Overlay overlay{T_reference_query, {}, 0};
+  refine(query, limits_.coarse_radius, end, overlay);
+  return overlay;
+}
+
+void Overlayer::refine(std::span<const Stem> query, double radius, std::uint32_t end,
+                       Overlay& overlay) {
+  match(query, radius, end, overlay);
+  if (overlay.matches.size() >= fewest_to_fit)
+    overlay.T_reference_query = refit(overlay.matches, query, reference_);
+}
+
+void Overlayer::finish(std::span<const Stem> query, std::uint32_t end, Overlay& overlay) {
+  for (int i = 0; i < 2; ++i) refine(query, limits_.radius, end, overlay);
+  match(query, limits_.radius, end, overlay);
+}
+
+double Overlayer::evidence(std::span<const Stem> query, std::span<const float> density,
+                           std::uint32_t end, std::uint32_t step, const Overlay& overlay) const {
+  const Move move(overlay.T_reference_query);
+  const double variance = limits_.sigma * limits_.sigma, share = limits_.detection;
+  double sum = 0;
+  auto match = overlay.matches.begin();
+  for (std::uint32_t q = 0; q < query.size(); q += step) {
+    while (match != overlay.matches.end() && match->query < q) ++match;
+    if (match != overlay.matches.end() && match->query == q) {
+      const double here =
+          std::exp(-0.5 * match->squared / variance) / (2 * std::numbers::pi * variance);
+      sum += std::log(1 - share + share * here / density[match->reference]);
+    } else if (covered(move(query[q]), end)) {
+      sum += std::log(1 - share);
+    }
+  }
+  return sum * step;
+}
+
+bool Overlayer::covered(const std::array<float, 2>& p, std::uint32_t end) const {
+  bool found = false;
+  grid_.within(p[0], p[1], float(limits_.cover),
+               [&](std::uint32_t r, float) { found = found || reference_[r].last < end; });
+  return found;
+}
+
+std::vector<float> densities(std::span<const Stem> stems, const StemGrid& grid) {
+  constexpr float around = 4.0f;
+  std::vector<float> out;
+  for (const Stem& s : stems) {
+    int count = 0;
+    grid.within(s.x, s.y, around, [&](std::uint32_t, float) { ++count; });
+    out.push_back(float(count) / (std::numbers::pi_v<float> * around * around));
+  }
+  return out;
+}
+
+std::optional<SE3> lift(const Overlay& overlay, std::span<const Stem> query,
+                        std::span<const Stem> reference, double sigma_tilt) {
+  const auto [x, y, yaw] = overlay.T_reference_query;
+  const Quat turned = SE3::from_yaw(yaw).q;
+  std::vector<Vec3> offset;  // from the query's node in the reference's axes
+  std::vector<double> dz;
+  for (const Match& m : overlay.matches) {
+    const Stem &q = query[m.query], &r = reference[m.reference];
+    if (std::isnan(q.z) || std::isnan(r.z)) continue;
+    offset.push_back(turned * Vec3(q.x, q.y, 0));
+    dz.push_back(double(r.z) - double(q.z));
+  }
+  if (dz.size() < fewest_to_fit) return std::nullopt;
+  Vec3 plane(cambium::median(dz), 0, 0);  // z, roll, pitch
+  // The scale falls from that of a wrong gravity to that of the bases (graduated non-convexity).
+  for (double sigma = 3.2; sigma > 0.15; sigma *= 0.8) {
+    const double prior = std::pow(sigma_base / sigma_tilt, 2);
+    Eigen::Matrix3d H = Eigen::Vector3d(1e-9, prior, prior).asDiagonal();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < dz.size(); ++i) {
+      const Eigen::Vector3d J(1, offset[i].y(), -offset[i].x());
+      const double r = (dz[i] - J.dot(plane)) / sigma, weight = 1 / (1 + r * r);
+      H += weight * J * J.transpose();
+      b += weight * dz[i] * J;
+    }
+    plane = H.ldlt().solve(b);
+  }
+  const Vec3 tilt(plane.y(), plane.z(), 0);
+  const double angle = tilt.norm();
+  const Quat tilted(Eigen::AngleAxisd(angle, angle > 0 ? Vec3(tilt / angle) : Vec3::UnitX()));
+  return SE3{tilted * turned, Vec3(x, y, plane.x())};
+}
+
+}  // namespace tree_match

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a node of one mission stands in another.
+#pragma once
+#include <optional>
+
+#include "alignment.hpp"
+#include "fingerprint.hpp"
+
+namespace tree_match {
+
+struct QueryLimits {
+  double window = 15.0;  ///< stems seen from nodes up to so far along the path [m]
+  double range = 40.0;   ///< and at most so far from the query's node [m]
+  int max_stems = 150;   ///< the nearest ones
+};
+
+/// The stems around a node, from the node, along the mission's axes.
+std::vector<Stem> stems_around(const Place& place, std::size_t node, const QueryLimits& limits);
+
+/// Confidence: the log likelihood ratio plus match_credit for each match.
+struct Acceptance {
+  int min_matches = 24;       ///< stems that lie on one another
+  double match_credit = 0.5;  ///< added to the log likelihood ratio for each match
+  double min_score = 10.0;    ///< least confidence
+  double min_margin = 0.4;    ///< share of the confidence by which any other place stays below it
+  double distinct = 3.0;      ///< hypotheses nearer than this are the same place [m]
+  double drift = 0.05;        ///< two passes of one place may lie so far apart, of the path between
+  double max_distance = 35.0;  ///< of two nodes: a turn that is slightly wrong grows with it [m]
+};
+
+struct Limits {
+  QueryLimits query;
+  TriangleLimits triangles;
+  IndexLimits index;
+  VoteLimits votes;
+  AlignmentLimits alignment;
+  Acceptance acceptance;
+  int finalists = 20;         ///< hypotheses that are refined to the end
+  double table_radius = 1.0;  ///< how far the map may have drifted from a node [m]
+  int table_matches = 10;     ///< stems that two nodes must both have seen to refine on those
+  double sigma_tilt = 0.02;   ///< of gravity in the missions' frames [rad]
+};
+
+struct Found {
+  std::size_t reference = 0;  ///< node
+  cambium::SE3 T_reference_query;
+  double score = 0;  ///< confidence
+};
+
+/// A mission in which places are looked for. One instance serves all threads.
+class Reference {
+ public:
+  Reference(Place place, const Limits& limits);
+
+  /// `end`: only nodes before it, and stems last seen before it, count. Nothing when no hypothesis
+  /// is accepted.
+  std::optional<Found> locate(const Place& query, std::size_t node, std::uint32_t end) const;
+
+ private:
+  std::vector<Overlay> hypotheses(std::span<const Stem> stems, std::uint32_t end) const;
+  std::size_t nearest_node(const Overlay& overlay, std::uint32_t end) const;
+  double confidence(const Overlay& overlay) const;
+  double rival(const std::vector<Overlay>& overlays, std::size_t node, std::uint32_t end) const;
+  cambium::SE3 relative_pose(const Overlay& overlay, std::span<const Stem> stems,
+                             const Place& query, std::size_t q, std::size_t r) const;
+
+  Limits limits_;
+  Place place_;
+  StemGrid grid_;
+  std::vector<float> density_;
+  TriangleIndex index_;
+};
+
+}  // namespace tree_match

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "support/support.hpp"
+
+namespace cambium::testing {
+namespace {
+
+/// Reproducible numbers in 0..1.
+struct Numbers {
+  std::uint64_t state;
+  double operator()() {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return double(state >> 33) / double(1u << 31);
+  }
+};
+
+/// Trees of a world of 240 x 120 m; `seed` names the forest.
+std::vector<Tree> forest(std::uint64_t seed) {
+  Numbers next{seed};
+  std::vector<Tree> trees;
+  for (int i = 0; i < 1600; ++i) {
+    Tree t;
+    t.base = Vec3(240 * next() - 120, 120 * next() - 60, 0);
+    t.base.z() = 2 * std::sin(t.base.x() / 30) - 1.5;
+    t.dbh = 0.1 + 0.4 * next();
+    t.reconstructed = true;
+    trees.push_back(t);
+  }
+  return trees;
+}
+
+/// A mission along `truth` (T_world_node), in the frame of its first node, with noise on the stems.
+Mission walk(const std::string& name, const std::vector<Tree>& world,
+             const std::vector<SE3>& truth) {
+  std::vector<SE3> poses;
+  for (const SE3& T : truth) poses.push_back(truth[0].inverse() * T);
+  Mission mission = make_mission(name, poses);
+  Numbers next{name.size() + 99};
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    std::vector<Tree> seen;
+    for (Tree t : world) {
+      t.base = truth[i].inverse() * t.base;
+      if (t.base.head<2>().norm() > 25 || next() < 0.2) continue;
+      for (int k = 0; k < 3; ++k) t.base[k] += 0.1 * (next() - 0.5);
+      seen.push_back(t);
+    }
+    mission.nodes[i].payload =
+        in_memory(Payload{nullptr, std::make_shared<const std::vector<Tree>>(std::move(seen))});
+  }
+  return mission;
+}
+
+std::vector<SE3> line(double from, double to, double y, double yaw) {
+  std::vector<SE3> out;
+  const int steps = int(std::abs(to - from) / 2);
+  for (int i = 0; i <= steps; ++i) {
+    const double x = from + (to - from) * i / steps;
+    out.push_back(SE3::from_yaw(yaw, {x, y, 2 * std::sin(x / 30)}));
+  }
+  return out;
+}
+
+std::vector<Candidate> match(const Mission& query, const Mission& reference,
+                             const std::string& yaml = "{}", int threads = 1) {
+  const auto recognizer = component<PlaceRecognizer>("tree_match", yaml);
+  const auto context = make_context(threads);
+  const Atlas q = make_atlas({query}), r = make_atlas({reference});
+  return recognizer->match(recognizer->describe({q, 0}, *context),
+                           recognizer->describe({r, 0}, *context), {}, *context);
+}
+
+TEST(TreeMatch, FindsTheReversedPathAndItsPose) {
+  const auto world = forest(1);
+  const auto there = line(-80, 80, 0, 0), back = line(80, -80, 6, std::numbers::pi);
+  const auto found = match(walk("b", world, back), walk("a", world, there));
+  EXPECT_GE(found.size(), back.size() * 9 / 10);
+  for (const Candidate& c : found) {
+    const SE3 error = (there[c.reference].inverse() * back[c.query]).inverse() *
+                      c.T_reference_query.value_or(SE3{});
+    EXPECT_LT(error.t.norm(), 0.3) << c.query;
+    EXPECT_LT(rotation_angle(error), 0.03) << c.query;
+  }
+}
+
+TEST(TreeMatch, AnotherForestIsRefused) {
+  EXPECT_TRUE(
+      match(walk("b", forest(2), line(80, -80, 0, 0)), walk("a", forest(1), line(-80, 80, 0, 0)))
+          .empty());
+}
+
+TEST(TreeMatch, ALatticeIsRefused) {
+  std::vector<Tree> world;
+  for (int x = -30; x <= 30; ++x)
+    for (int y = -15; y <= 15; ++y) {
+      Tree t;
+      t.base = Vec3(4 * x, 4 * y, -1.5);
+      t.dbh = 0.2;
+      t.reconstructed = true;
+      world.push_back(t);
+    }
+  EXPECT_TRUE(match(walk("b", world, line(40, -40, -14, 0)), walk("a", world, line(-40, 40, 2, 0)))
+                  .empty());
+}
+
+TEST(TreeMatch, OnlyAllowedPairsWithinAMission) {
+  auto path = line(-60, 60, 0, 0);
+  for (const SE3& T : line(60, -60, 4, std::numbers::pi)) path.push_back(T);
+  const Mission mission = walk("a", forest(1), path);
+  const Atlas atlas = make_atlas({mission});
+  Pairing pairing{true, 50.0, {}, {}};
+  for (std::size_t i = 0; i < path.size(); ++i) pairing.query_path.push_back(2.0 * double(i));
+  pairing.reference_path = pairing.query_path;
+  const auto recognizer = component<PlaceRecognizer>("tree_match");
+  const auto context = make_context();
+  const auto fingerprints = recognizer->describe({atlas, 0}, *context);
+  const auto found = recognizer->match(fingerprints, fingerprints, pairing, *context);
+  EXPECT_FALSE(found.empty());
+  for (const Candidate& c : found) {
+    EXPECT_TRUE(pairing.allowed(c.query, c.reference));
+    EXPECT_GT(c.query, path.size() / 2) << "a stem matched its own recent sightings";
+  }
+}
+
+TEST(TreeMatch, TheSameForAnyThreadCount) {
+  const auto world = forest(1);
+  const Mission a = walk("a", world, line(-40, 40, 0, 0)),
+                b = walk("b", world, line(40, -40, 5, 1));
+  const auto one = match(b, a), three = match(b, a, "{}", 3);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].score, three[i].score);
+    EXPECT_EQ(one[i].T_reference_query->t, three[i].T_reference_query->t);
+  }
+}
+
+TEST(TreeMatch, EmptyFewAndBrokenTablesMatchNothing) {
+  const Mission good = walk("a", forest(1), line(-40, 40, 0, 0));
+  std::vector<Tree> three(3), broken = forest(1);
+  for (Tree& t : broken) t.base.y() = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& world : {std::vector<Tree>{}, three, broken}) {
+    const Mission poor = walk("b", world, line(-40, 40, 0, 0));
+    EXPECT_TRUE(match(poor, good).empty());
+    EXPECT_TRUE(match(good, poor).empty());
+  }
+  EXPECT_TRUE(match(make_mission("b", {}), good).empty());
+  EXPECT_TRUE(match(good, make_mission("b", {SE3{}})).empty());
+}
+
+TEST(TreeMatch, FingerprintsOfAnotherRecogniserAreRefused) {
+  const auto recognizer = component<PlaceRecognizer>("tree_match");
+  const Fingerprints strange{1, 2, {1, 2}, {}};
+  EXPECT_THROW(recognizer->match(strange, strange, {}, *make_context()), Error);
+}
+
+TEST(TreeMatch, RefusesBadParameters) {
+  for (const char* yaml :
+       {"{bins: 255}", "{min_matches: 2}", "{cell: 0}", "{radius: -1}", "{neighbors: 5}"})
+    EXPECT_THROW(component<PlaceRecognizer>("tree_match", yaml), Error) << yaml;
+}
+
+}  // namespace
+}  // namespace cambium::testing

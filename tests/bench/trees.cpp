@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How often tree_match is right, and how long it takes:
+//   bench_trees evo|venman [TREE_MATCH_PARAMS]
+// The missions of missions_evo or missions_venman against each other and each against its own past
+// (50 m of path and more). A query is right when its horizontal position in the reference node is
+// within 0.5 m (Evo) or 1.5 m (Venman) of the truth and its rotation within 5 degrees; the baseline
+// is the true distance to the nearest node that may be proposed.
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <numbers>
+
+#include "bench/tree_data.hpp"
+#include "cambium/statistics.hpp"
+
+namespace {
+
+using namespace cambium;
+using namespace cambium::bench;
+
+struct Tally {
+  std::size_t queries = 0, right = 0;
+  double percent() const { return queries ? 100.0 * double(right) / double(queries) : 0.0; }
+};
+
+struct Result {
+  std::map<int, Tally> by_baseline;  ///< first metre of each bin of 5 m; 80 for all beyond
+  std::size_t accepted = 0, wrong = 0, far = 0, far_accepted = 0;
+  std::vector<double> position, height, milliseconds;  ///< errors [m] of the right ones; of a query
+};
+
+double baseline(const TreeMission& q, std::size_t i, const TreeMission& r, const Pairing& pairing) {
+  double nearest = 1e9;
+  for (std::size_t k = 0; k < r.truth.size(); ++k)
+    if (pairing.allowed(i, k)) nearest = std::min(nearest, (q.truth[i].t - r.truth[k].t).norm());
+  return nearest;
+}
+
+void judge(const TreeMission& q, const TreeMission& r, bool within, double limit,
+           const PlaceRecognizer& recognizer, Result& out) {
+  constexpr double min_path = 50, far = 80, limit_angle = 5 * std::numbers::pi / 180;
+  const StopWatch context;
+  const Pairing pairing{within, min_path, q.path, r.path};
+  std::map<std::size_t, Candidate> found;
+  for (const Candidate& c : recognizer.match(q.fingerprints, r.fingerprints, pairing, context))
+    found.emplace(c.query, c);
+  out.milliseconds.insert(out.milliseconds.end(), context.milliseconds.begin(),
+                          context.milliseconds.end());
+  for (std::size_t i = 0; i < q.truth.size(); ++i) {
+    const double distance = baseline(q, i, r, pairing);
+    if (distance > 1e8) continue;
+    const auto it = found.find(i);
+    Tally& tally = out.by_baseline[distance > far ? int(far) : 5 * int(distance / 5)];
+    ++tally.queries;
+    out.far += distance > far;
+    if (it == found.end()) continue;
+    const SE3 T = r.truth[it->second.reference].inverse() * q.truth[i];
+    const SE3 error = T.inverse() * *it->second.T_reference_query;
+    const double off = error.t.head<2>().norm();
+    const bool right = off < limit && rotation_angle(error) < limit_angle;
+    ++out.accepted;
+    out.wrong += !right;
+    out.far_accepted += distance > far;
+    tally.right += right;
+    if (!right) continue;
+    out.position.push_back(off);
+    out.height.push_back(std::abs(error.t.z()));
+  }
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::size_t(share * double(values.size() - 1))];
+}
+
+void print(const char* name, const Result& result) {
+  std::printf("| %s | queries | right [%%] |\n|---|---|---|\n", name);
+  Tally near;
+  for (const auto& [from, tally] : result.by_baseline) {
+    if (from < 20) near.queries += tally.queries, near.right += tally.right;
+    if (from < 25)
+      std::printf("| %d to %d m | %zu | %.2f |\n", from, from + 5, tally.queries, tally.percent());
+  }
+  std::printf("| up to 20 m | %zu | %.2f |\n\n", near.queries, near.percent());
+  std::printf("accepted %zu, of them wrong %zu; farther than 80 m: %zu queries, %zu accepted\n",
+              result.accepted, result.wrong, result.far, result.far_accepted);
+  std::printf(
+      "position error [m]: median %.3f, 95 %% %.3f; height error: median %.3f, 95 %% %.3f\n",
+      median(result.position), quantile(result.position, 0.95), median(result.height),
+      quantile(result.height, 0.95));
+  std::printf("query [ms of processor time]: median %.2f, 95 %% %.2f\n",
+              median(result.milliseconds), quantile(result.milliseconds, 0.95));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const std::string set = argc > 1 ? argv[1] : "";
+  if (set != "evo" && set != "venman") {
+    std::fprintf(stderr, "usage: bench_trees evo|venman [TREE_MATCH_PARAMS]\n");
+    return 2;
+  }
+  const auto recognizer =
+      cambium::testing::component<PlaceRecognizer>("tree_match", argc > 2 ? argv[2] : "{}");
+  const auto own = tree_missions("missions_" + set, *recognizer);
+  const auto other = tree_missions(set == "evo" ? "missions_venman" : "missions_evo", *recognizer);
+  if (own.empty()) {
+    std::fprintf(stderr, "missions_%s is not here\n", set.c_str());
+    return 0;
+  }
+  Result result;
+  for (std::size_t r = 0; r < own.size(); ++r)
+    for (std::size_t q = r; q < own.size(); ++q)
+      judge(own[q], own[r], q == r, set == "evo" ? 0.5 : 1.5, *recognizer, result);
+  // Another country, and pieces of the own forest that the query is far away from.
+  Result elsewhere;
+  for (const TreeMission& r : own) {
+    for (const TreeMission& q : far_from(other, 1e6)) judge(q, r, false, 0, *recognizer, elsewhere);
+    for (const TreeMission& piece : pieces(r, 100, *recognizer))
+      for (const TreeMission& q : own) judge(q, piece, false, 0, *recognizer, elsewhere);
+  }
+  result.far += elsewhere.far;
+  result.far_accepted += elsewhere.far_accepted;
+  print(set.c_str(), result);
+} catch (const std::exception& e) {
+  std::fprintf(stderr, "%s\n", e.what());
+  return 1;
+}
