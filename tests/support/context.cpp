@@ -5,6 +5,7 @@
 
 #include <exception>
 
+#include "engine/plain_threads.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -35,7 +36,11 @@ class QuietContext final : public Context {
         thrown[i] = std::current_exception();
       }
     };
+#if defined(__SANITIZE_THREAD__)
+    on_plain_threads(threads_, count, guarded);
+#else
     arena_.execute([&] { tbb::parallel_for(std::size_t{0}, count, guarded); });
+#endif
     for (const auto& exception : thrown)
       if (exception) std::rethrow_exception(exception);
   }
