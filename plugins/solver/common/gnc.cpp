@@ -12,6 +12,7 @@ namespace {
 
 constexpr double mu_step = 1.4;      ///< as in the paper
 constexpr int inner_iterations = 2;  ///< the next surrogate moves the minimum anyway
+constexpr double last_mu = 1e12;     ///< the surrogate is the truncation itself
 
 /// A robust factor's squared residual and the limit above which it is an outlier.
 struct Suspect {
@@ -56,8 +57,9 @@ bool reweigh(const std::vector<Suspect>& all, double mu) {
   return settled;
 }
 
+/// Nothing suspicious: the last, so that one full run over all factors settles it.
 double first_mu(const std::vector<Suspect>& all) {
-  double mu = INFINITY;
+  double mu = last_mu;
   for (const Suspect& s : all)
     if (2 * s.squared > s.limit) mu = std::min(mu, s.limit / (2 * s.squared - s.limit));
   return mu;
@@ -67,11 +69,11 @@ double first_mu(const std::vector<Suspect>& all) {
 
 GncResult graduate(Minimizer& minimizer, const PoseGraph& graph, const std::vector<SE3>& start,
                    double width, const Limits& limits, const Context& context) {
-  GncResult out{{start, 0, true, "no loop is suspicious"}, unit_weights(graph)};
+  GncResult out{{start, 0, false, ""}, unit_weights(graph)};
   const Loss none;
   int iterations = 0;
-  auto all = suspects(graph, out.minimum.T_map_node, width, out.weights);
-  for (double mu = first_mu(all); std::isfinite(mu) && mu < 1e12; mu *= mu_step) {
+  auto all = suspects(graph, start, width, out.weights);
+  for (double mu = first_mu(all); mu <= last_mu; mu *= mu_step) {
     context.check_cancelled();
     const bool settled = reweigh(all, mu);
     out.minimum =

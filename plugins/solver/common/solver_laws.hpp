@@ -196,6 +196,16 @@ TEST(SolverLaws, PerfectMeasurementsGiveTheTruth) {
   EXPECT_LT(helix.largest_error(s.T_map_node), 1e-9);
 }
 
+// The chordal start of this helix has no suspicious loop, but is not the minimum yet.
+TEST(SolverLaws, GncWithoutFalseLoopsIsTheMinimum) {
+  const Helix helix(100);
+  const Solution s = solve(helix.graph, "{loss: gnc, loss_width: 6}");
+  EXPECT_TRUE(s.converged) << s.message;
+  EXPECT_EQ(s.weight, std::vector<double>(helix.graph.relative.size(), 1.0));
+  EXPECT_NEAR(cost(helix.graph, s.T_map_node) / cost(helix.graph, solve(helix.graph).T_map_node), 1,
+              1e-9);
+}
+
 TEST(SolverLaws, DoesNotSeeTheSignOfQuaternions) {
   Helix helix(60);
   const double F = cost(helix.graph, solve(helix.graph).T_map_node);
