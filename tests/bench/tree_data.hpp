@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "support/plain_context.hpp"
 #include "support/support.hpp"
 
 namespace cambium::bench {
@@ -25,13 +26,8 @@ std::vector<TreeMission> pieces(const TreeMission& whole, std::size_t nodes,
 std::vector<TreeMission> far_from(std::vector<TreeMission> missions, double distance);
 
 /// Measures the processor time of each item of parallel_for, on one thread.
-class StopWatch final : public Context {
+class StopWatch final : public testing::PlainContext {
  public:
-  void log(LogLevel, std::string_view) const override {}
-  bool cancelled() const override { return false; }
-  int threads() const override { return 1; }
-  std::uint64_t seed() const override { return 1; }
-  std::filesystem::path scratch() const override { return {}; }
   void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) const override;
   mutable std::vector<double> milliseconds;
 };

@@ -65,27 +65,12 @@ class CeresMinimizer final : public pose_solver::Minimizer {
   const std::vector<bool>& held_;
 };
 
-class Ceres final : public Solver {
- public:
-  void params(ParamVisitor& v) override { settings_.params(v); }
-
-  Solution solve(const PoseGraph& graph, const Context& context) const override {
-    return pose_solver::solve(settings_, graph, context,
-                              [](const PoseGraph& checked, const std::vector<bool>& held) {
-                                return std::make_unique<CeresMinimizer>(checked, held);
-                              });
-  }
-
- private:
-  pose_solver::Settings settings_;
-};
-
 }  // namespace
 }  // namespace cambium::ceres_solver
 
 CAMBIUM_PLUGIN("ceres", "0.1.0") {
   // Ceres reports its troubles through glog, on stderr; here they are in Solution::message.
   FLAGS_minloglevel = google::GLOG_FATAL;
-  registry.add<cambium::ceres_solver::Ceres>(
+  registry.add<cambium::pose_solver::SolverWith<cambium::ceres_solver::CeresMinimizer>>(
       "ceres", "Levenberg-Marquardt with sparse Cholesky, robust losses and chordal start (Ceres)");
 }

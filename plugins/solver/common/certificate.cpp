@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCore>
 #include <algorithm>
 
 #include "common/cholesky.hpp"
@@ -99,14 +98,10 @@ Sparse certificate_matrix(const Sparse& M, const std::vector<int>& rows,
 /// 1 %. Cholesky decides each trial, which no cluster of eigenvalues around zero disturbs.
 double depth(const Sparse& S, double scale) {
   const Sparse lower = S.triangularView<Eigen::Lower>();
-  const LowerPattern pattern{{lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1},
-                             {lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros()}};
+  const LowerPattern pattern = pattern_of(lower);
   Cholesky cholesky(pattern);
   const auto positive = [&](double shift) {
-    std::vector<double> values(lower.valuePtr(), lower.valuePtr() + lower.nonZeros());
-    for (int c = 0; c < pattern.size(); ++c)
-      values[std::size_t(pattern.column_start[std::size_t(c)])] += shift * scale;
-    return cholesky.factorize(values);
+    return cholesky.factorize(lower.valuePtr(), shift * scale);
   };
   if (positive(certificate_tolerance)) return 0;
   double low = certificate_tolerance, high = 10 * low;

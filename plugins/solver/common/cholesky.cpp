@@ -30,6 +30,11 @@ void start(cholmod_common& common) {
 
 }  // namespace
 
+LowerPattern pattern_of(const Eigen::SparseMatrix<double>& lower) {
+  return {{lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1},
+          {lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros()}};
+}
+
 Cholesky::Cholesky(const LowerPattern& pattern) : pattern_(pattern) {
   start(common_);
   common_.nmethods = 1;
@@ -49,10 +54,11 @@ Cholesky::~Cholesky() {
   cholmod_finish(&common_);
 }
 
-bool Cholesky::factorize(const std::vector<double>& values) {
+bool Cholesky::factorize(const double* values, double shift) {
   if (!factor_) return false;
-  cholmod_sparse A = view(pattern_, values.data());
-  cholmod_factorize(&A, factor_, &common_);
+  cholmod_sparse A = view(pattern_, values);
+  double beta[2] = {shift, 0};
+  cholmod_factorize_p(&A, beta, nullptr, 0, factor_, &common_);
   return common_.status == CHOLMOD_OK && factor_->minor == factor_->n;
 }
 
@@ -76,8 +82,6 @@ double Cholesky::condition() const {
   const double reciprocal = cholmod_rcond(factor_, &common_);
   return reciprocal > 0 ? 1 / reciprocal : INFINITY;
 }
-
-std::size_t Cholesky::factor_entries() const { return factor_ ? factor_->xsize : 0; }
 
 std::vector<int> elimination_order(int count, const std::vector<std::pair<int, int>>& couplings) {
   LowerPattern pattern;

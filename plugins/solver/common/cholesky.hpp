@@ -4,7 +4,7 @@
 #pragma once
 #include <cholmod.h>
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <memory>
 #include <vector>
 
@@ -17,6 +17,9 @@ struct LowerPattern {
   int size() const { return int(column_start.size()) - 1; }
 };
 
+/// Of a matrix that has its diagonal and nothing above it.
+LowerPattern pattern_of(const Eigen::SparseMatrix<double>& lower);
+
 class Cholesky {
  public:
   /// The symbolic analysis. The unknowns must come in a fill-reducing order already.
@@ -25,12 +28,12 @@ class Cholesky {
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  /// `values` as `pattern.row`. False: the matrix is not positive definite.
-  bool factorize(const std::vector<double>& values);
+  /// The matrix plus `shift` times the identity, `values` as `pattern.row`. False: it is not
+  /// positive definite.
+  bool factorize(const double* values, double shift = 0);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_side) const;
   /// Of the matrix, estimated from the diagonal of its factor: a lower bound.
   double condition() const;
-  std::size_t factor_entries() const;
 
  private:
   const LowerPattern& pattern_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/chordal.hpp"
 
-#include <Eigen/SparseCore>
 #include <algorithm>
 
 #include "common/cholesky.hpp"
@@ -66,10 +65,9 @@ void add_lower(Triplets& H, Index row, Index col, const Matrix3d& block) {
 bool solve(Index size, const Triplets& triplets, Eigen::MatrixX3d& b) {
   Sparse H(size, size);
   H.setFromTriplets(triplets.begin(), triplets.end());
-  const LowerPattern pattern{{H.outerIndexPtr(), H.outerIndexPtr() + size + 1},
-                             {H.innerIndexPtr(), H.innerIndexPtr() + H.nonZeros()}};
+  const LowerPattern pattern = pattern_of(H);
   Cholesky cholesky(pattern);
-  if (!cholesky.factorize({H.valuePtr(), H.valuePtr() + H.nonZeros()})) return false;
+  if (!cholesky.factorize(H.valuePtr())) return false;
   b = cholesky.solve(b);
   return b.allFinite();
 }

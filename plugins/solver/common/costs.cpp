@@ -2,12 +2,18 @@
 #include "common/costs.hpp"
 
 namespace cambium::pose_solver {
-namespace {
 
-double squared(const RelativeFactor& f, const std::vector<SE3>& T) {
+double squared_residual(const RelativeFactor& f, const std::vector<SE3>& T) {
   const Vec6 r = residual(f.T_tail_head, T[f.tail], T[f.head]);
   return r.dot(f.information * r);
 }
+
+double squared_residual(const PositionFactor& f, const std::vector<SE3>& T) {
+  const Vec3 r = T[f.node].t - f.t_map;
+  return r.dot(f.information * r);
+}
+
+namespace {
 
 /// `add(node, cost)` of every factor, in a fixed order.
 template <class Add>
@@ -16,7 +22,7 @@ void visit(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& wei
   const auto robust = [&](double s, bool is_robust) { return is_robust ? loss.value(s) : s; };
   for (std::size_t k = 0; k < graph.relative.size(); ++k) {
     const auto& f = graph.relative[k];
-    add(f.tail, weights.relative[k] * robust(squared(f, T), f.robust));
+    add(f.tail, weights.relative[k] * robust(squared_residual(f, T), f.robust));
   }
   for (const auto& f : graph.priors) {
     const Vec6 r = residual(f.T_map_node, SE3{}, T[f.node]);
@@ -24,8 +30,7 @@ void visit(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& wei
   }
   for (std::size_t k = 0; k < graph.positions.size(); ++k) {
     const auto& f = graph.positions[k];
-    const Vec3 r = T[f.node].t - f.t_map;
-    add(f.node, weights.positions[k] * robust(r.dot(f.information * r), f.robust));
+    add(f.node, weights.positions[k] * robust(squared_residual(f, T), f.robust));
   }
   for (const auto& f : graph.attitude) {
     const Vec3 up = T[f.node].q.conjugate() * Vec3::UnitZ();
@@ -49,12 +54,6 @@ std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::
   std::vector<double> F(T.size());  // by component; the tail is unused
   visit(graph, T, weights, loss, [&](std::size_t node, double f) { F[component[node]] += f; });
   return F;
-}
-
-std::vector<double> squared_residuals(const PoseGraph& graph, const std::vector<SE3>& T) {
-  std::vector<double> out;
-  for (const auto& f : graph.relative) out.push_back(squared(f, T));
-  return out;
 }
 
 }  // namespace cambium::pose_solver

@@ -14,7 +14,8 @@ std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::
                                  const std::vector<SE3>& T_map_node, const Weights& weights,
                                  const Loss& loss);
 
-/// r' Omega r of every relative factor.
-std::vector<double> squared_residuals(const PoseGraph& graph, const std::vector<SE3>& T_map_node);
+/// r' Omega r of one factor.
+double squared_residual(const RelativeFactor& factor, const std::vector<SE3>& T_map_node);
+double squared_residual(const PositionFactor& factor, const std::vector<SE3>& T_map_node);
 
 }  // namespace cambium::pose_solver

@@ -28,15 +28,13 @@ double chi_square_limit(int dimensions, double width) {
 std::vector<Suspect> suspects(const PoseGraph& graph, const std::vector<SE3>& poses, double width,
                               Weights& weights) {
   std::vector<Suspect> out;
-  const auto squared = squared_residuals(graph, poses);
   const double limit6 = chi_square_limit(6, width), limit3 = chi_square_limit(3, width);
-  for (std::size_t k = 0; k < squared.size(); ++k)
-    if (graph.relative[k].robust) out.push_back({&weights.relative[k], squared[k], limit6});
-  for (std::size_t k = 0; k < graph.positions.size(); ++k) {
-    const auto& f = graph.positions[k];
-    const Vec3 r = poses[f.node].t - f.t_map;
-    if (f.robust) out.push_back({&weights.positions[k], r.dot(f.information * r), limit3});
-  }
+  for (std::size_t k = 0; k < graph.relative.size(); ++k)
+    if (const auto& f = graph.relative[k]; f.robust)
+      out.push_back({&weights.relative[k], squared_residual(f, poses), limit6});
+  for (std::size_t k = 0; k < graph.positions.size(); ++k)
+    if (const auto& f = graph.positions[k]; f.robust)
+      out.push_back({&weights.positions[k], squared_residual(f, poses), limit3});
   return out;
 }
 

@@ -28,9 +28,9 @@ Mat6 marginal(const NormalEquations& equations, const Cholesky& cholesky, std::s
 std::vector<double> final_weights(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
                                   const Weights& weights, const Loss& loss) {
   std::vector<double> out = weights.relative;
-  const auto squared = squared_residuals(graph, T_map_node);
   for (std::size_t k = 0; k < out.size(); ++k)
-    if (graph.relative[k].robust) out[k] *= loss.weight(squared[k]);
+    if (const auto& f = graph.relative[k]; f.robust)
+      out[k] *= loss.weight(squared_residual(f, T_map_node));
   return out;
 }
 
@@ -43,7 +43,7 @@ void report_equations(const PoseGraph& graph, const std::vector<bool>& held, con
   }
   equations.linearize(solution.T_map_node, weights, loss);
   Cholesky cholesky(equations.H().pattern());
-  const bool regular = cholesky.factorize(equations.H().values());
+  const bool regular = cholesky.factorize(equations.H().values().data());
   if (diagnostics) {
     solution.scores.emplace_back("gradient_norm", 2 * equations.g().norm());
     solution.scores.emplace_back("condition", regular ? cholesky.condition() : INFINITY);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a graph as files bring it to a Solution, around the minimisation that a plugin brings.
 #pragma once
+#include "cambium/kinds.hpp"
 #include "common/settings.hpp"
 
 namespace cambium::pose_solver {
@@ -10,5 +11,22 @@ namespace cambium::pose_solver {
 /// the marginals that the graph asks for. Throws Error(numeric) naming the factor.
 Solution solve(const Settings& settings, const PoseGraph& given, const Context& context,
                const MakeMinimizer& make);
+
+/// The component of a plugin that minimises with `M`, made from (graph, held).
+template <class M>
+class SolverWith final : public Solver {
+ public:
+  void params(ParamVisitor& v) override { settings_.params(v); }
+
+  Solution solve(const PoseGraph& graph, const Context& context) const override {
+    return pose_solver::solve(settings_, graph, context,
+                              [](const PoseGraph& checked, const std::vector<bool>& held) {
+                                return std::make_unique<M>(checked, held);
+                              });
+  }
+
+ private:
+  Settings settings_;
+};
 
 }  // namespace cambium::pose_solver

@@ -12,7 +12,7 @@ constexpr double accuracy = 3e-2;  ///< of d in the norm of H; the cost errs by 
 bool DampedSystem::solve(double damping, bool near, Eigen::VectorXd& d) {
   scale();
   if (factored_ && near && solve_with_old_factor(damping, d)) return true;
-  factored_ = cholesky_.factorize(equations_.H().damped(D_, damping));
+  factored_ = cholesky_.factorize(equations_.H().damped(D_, damping).data());
   if (!factored_) return false;
   d = cholesky_.solve(-equations_.g());
   return d.allFinite();
