@@ -5,13 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cambium/path.hpp"
+
 namespace cambium::cli {
 namespace {
 
-double span(const Inspection& i) {
-  if (!i.first) return 0;
-  return double(i.last->sec - i.first->sec) + 1e-9 * (i.last->nsec - i.first->nsec);
-}
+double span(const Inspection& i) { return i.first ? seconds_between(*i.first, *i.last) : 0; }
 
 std::string counts(const std::map<std::string, std::size_t>& by_name) {
   std::string out;

@@ -12,6 +12,7 @@
 #include "cambium/files.hpp"
 #include "plugins/loader.hpp"
 #include "support/pose_graph.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -27,7 +28,7 @@ std::vector<Entry> entries(const std::vector<std::string>& names) {
   }
   if (!out.empty()) return out;
   PluginLoader loader;
-  loader.load_folder(CAMBIUM_TEST_PLUGINS);
+  loader.load_folder(plugin_folder());
   for (const auto& [key, registered] : loader.registry().all())
     if (key.first == Kind::solver) out.emplace_back(key.second, "{}");
   return out;
@@ -53,7 +54,7 @@ void bench(const std::string& set, const PoseGraph& graph, double reference, con
 void bench_gtsam(const std::string& python, const std::string& set,
                  const std::filesystem::path& file, double reference) {
   const std::string command =
-      python + " " CAMBIUM_SOURCE_DIR "/tests/bench/gtsam_peer.py " + file.string();
+      python + " " + source("tests/bench/gtsam_peer.py").string() + " " + file.string();
   std::FILE* pipe = ::popen(command.c_str(), "r");
   int iterations = 0;
   double seconds = 0, F = 0;

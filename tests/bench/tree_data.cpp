@@ -5,18 +5,14 @@
 #include <ctime>
 
 #include "cambium/files.hpp"
+#include "cambium/path.hpp"
 
 namespace cambium::bench {
 namespace {
 
 void describe(TreeMission& m, const PlaceRecognizer& recognizer) {
   const auto context = testing::make_context();
-  m.path.clear();
-  for (std::size_t i = 0; i < m.mission.nodes.size(); ++i)
-    m.path.push_back(i == 0 ? 0.0
-                            : m.path[i - 1] + (m.mission.nodes[i].T_mission_node.t -
-                                               m.mission.nodes[i - 1].T_mission_node.t)
-                                                  .norm());
+  m.path = travelled(m.mission);
   const Atlas atlas = testing::make_atlas({m.mission});
   m.fingerprints = recognizer.describe({atlas, 0}, *context);
 }

@@ -2,6 +2,7 @@
 // Real pipelines on the adversaries of tests/specs: the map is right, or the run says that there is
 // none.
 #include "command.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 using namespace cambium;
@@ -9,8 +10,7 @@ using namespace cambium::testing;
 
 namespace {
 
-const std::string source = CAMBIUM_SOURCE_DIR;
-const std::string small_scans = source + "/tests/integration/adversaries.yaml";
+const std::string small_scans = source("tests/integration/adversaries.yaml").string();
 
 struct Fused {
   Outcome run;
@@ -28,7 +28,7 @@ struct Fused {
 Fused fuse(const std::string& spec, const std::string& pipeline = small_scans) {
   const TemporaryFolder folder;
   const auto simulated = run_cambium(
-      {"simulate", source + "/tests/specs/" + spec + ".yaml", (folder / "missions").string()});
+      {"simulate", source("tests/specs/" + spec + ".yaml").string(), (folder / "missions").string()});
   EXPECT_EQ(simulated.code, 0) << simulated.err;
   Fused out;
   out.run = run_cambium({"run", pipeline, (folder / "missions/mission_*").string(), "--out",

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "cambium/files.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -28,7 +29,7 @@ void limit_files(std::size_t bytes) {
 
 pid_t start(std::vector<std::string> arguments, const std::filesystem::path& out,
             const std::filesystem::path& err, std::optional<std::size_t> largest_file = {}) {
-  arguments.insert(arguments.begin(), CAMBIUM_PROGRAM);
+  arguments.insert(arguments.begin(), built("bin/cambium").string());
   std::vector<char*> argv;
   for (auto& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);
@@ -84,7 +85,7 @@ double metric(const nlohmann::json& report, const std::string& name) {
 }
 
 std::string pipeline(const std::string& name) {
-  return std::string(CAMBIUM_SOURCE_DIR) + "/pipelines/" + name;
+  return source("pipelines/" + name).string();
 }
 
 }  // namespace cambium::testing

@@ -2,6 +2,7 @@
 // What a user meets at the command line: help, mistakes, exit codes, Ctrl-C.
 #include "cambium/files.hpp"
 #include "command.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 using namespace cambium;
@@ -57,10 +58,9 @@ TEST(CommandLine, ShippedPipelinesAreValid) {
 }
 
 TEST(CommandLine, GeneratedFilesAreThoseOfThePlugins) {
-  const std::string tree = std::string(CAMBIUM_SOURCE_DIR) + "/";
   const char* hint = "run: ./bootstrap generate";
-  EXPECT_EQ(run_cambium({"schema"}).out, read_file(tree + "schemas/pipeline.schema.json")) << hint;
-  EXPECT_EQ(run_cambium({"plugins", "describe"}).out, read_file(tree + "docs/reference.md")) << hint;
+  EXPECT_EQ(run_cambium({"schema"}).out, read_file(source("schemas/pipeline.schema.json"))) << hint;
+  EXPECT_EQ(run_cambium({"plugins", "describe"}).out, read_file(source("docs/reference.md"))) << hint;
 }
 
 TEST(CommandLine, ResolvedPipelineIsAPipeline) {

@@ -2,6 +2,7 @@
 // Matrices and batches as a user runs them.
 #include "cambium/files.hpp"
 #include "command.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 using namespace cambium;
@@ -39,7 +40,7 @@ class Matrix : public ::testing::Test {
     write_file(folder / "m.yaml", "version: 1\npipeline: p.yaml\n" + body);
     std::vector<std::string> arguments = {
         command,   (folder / "m.yaml").string(), "--out",         (folder / "out").string(),
-        "--cache", (folder / "cache").string(),  "--plugin-path", CAMBIUM_MISBEHAVING};
+        "--cache", (folder / "cache").string(),  "--plugin-path", built("tests/matrix/plugins").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_cambium(arguments);
   }
@@ -175,7 +176,7 @@ TEST_F(Matrix, ABatchGoesOnAfterABrokenDataset) {
 
 TEST(ShippedMatrices, AreOfTheCommittedSchema) {
   EXPECT_EQ(run_cambium({"matrix", "--schema"}).out,
-            read_file(std::string(CAMBIUM_SOURCE_DIR) + "/schemas/matrix.schema.json"))
+            read_file(source("schemas/matrix.schema.json"))
       << "run: ./bootstrap generate";
 }
 

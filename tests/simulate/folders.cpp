@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "simulate/spec_file.hpp"
+#include "support/places.hpp"
 
 namespace cambium::simulate {
 namespace {
@@ -18,7 +19,7 @@ std::vector<std::string> cells(const std::string& line) {
 }  // namespace
 
 Simulated::Simulated(const std::string& name, int threads) {
-  const std::filesystem::path file = CAMBIUM_SOURCE_DIR "/tests/specs/" + name + ".yaml";
+  const std::filesystem::path file = testing::source("tests/specs/" + name + ".yaml");
   spec = load_spec(file);
   summary = simulate(spec, read_file(file), folder_.path(), *testing::make_context(threads));
 }

@@ -4,6 +4,7 @@
 #include "cambium/error.hpp"
 #include "cambium/files.hpp"
 #include "simulate/spec_file.hpp"
+#include "support/places.hpp"
 
 namespace cambium::simulate {
 namespace {
@@ -52,7 +53,7 @@ TEST(Spec, RefusesWhatIsNoSpecification) {
 }
 
 TEST(Spec, CommittedSchemaIsThatOfTheCode) {
-  const std::string path = CAMBIUM_SOURCE_DIR "/schemas/simulate.schema.json";
+  const auto path = testing::source("schemas/simulate.schema.json");
   EXPECT_EQ(read_file(path), spec_schema().dump(2) + "\n")
       << "run: ./bootstrap generate";
 }
@@ -69,7 +70,7 @@ void expect_rows(const nlohmann::ordered_json& properties, const std::string& pa
 }
 
 TEST(Spec, DocumentationNamesEveryKey) {
-  const std::string page = read_file(CAMBIUM_SOURCE_DIR "/docs/simulate.md");
+  const std::string page = read_file(testing::source("docs/simulate.md"));
   const auto schema = spec_schema()["properties"];
   expect_rows(schema, page);
   expect_rows(schema["missions"]["items"]["properties"], page);

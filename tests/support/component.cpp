@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/binder.hpp"
 #include "plugins/loader.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -10,12 +11,12 @@ namespace {
 const Registered& registered(Kind kind, const std::string& name) {
   static PluginLoader loader;
   if (const auto* known = loader.registry().find(kind, name)) return *known;
-  const auto library = std::filesystem::path(CAMBIUM_TEST_PLUGINS) / (name + ".so");
+  const auto library = plugin_folder() / (name + ".so");
   if (std::filesystem::exists(library)) loader.load_file(library);
-  if (!loader.registry().find(kind, name)) loader.load_folder(CAMBIUM_TEST_PLUGINS);
+  if (!loader.registry().find(kind, name)) loader.load_folder(plugin_folder());
   if (const auto* found = loader.registry().find(kind, name)) return *found;
   std::string message = std::string("no ") + to_string(kind) + " of this name in " +
-                        CAMBIUM_TEST_PLUGINS + "; build its plugin first";
+                        plugin_folder().string() + "; build its plugin first";
   for (const Error& refusal : loader.refusals()) message += std::string("\n  ") + refusal.what();
   throw Error(ErrorCode::plugin, name, message);
 }

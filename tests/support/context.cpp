@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <exception>
 
-#include "engine/plain_threads.hpp"
+#include "engine/parallel.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -36,11 +34,7 @@ class QuietContext final : public Context {
         thrown[i] = std::current_exception();
       }
     };
-#if defined(__SANITIZE_THREAD__)
-    on_plain_threads(threads_, count, guarded);
-#else
-    arena_.execute([&] { tbb::parallel_for(std::size_t{0}, count, guarded); });
-#endif
+    in_parallel(arena_, count, guarded);
     for (const auto& exception : thrown)
       if (exception) std::rethrow_exception(exception);
   }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -20,7 +21,7 @@ fs::path new_folder(const fs::path& parent) {
 
 fs::path shared_data_folder() {
   const char* named = std::getenv("CAMBIUM_SHARED_DATA");
-  return named ? fs::path(named) : fs::path(CAMBIUM_SOURCE_DIR) / "../shared/data";
+  return named ? fs::path(named) : source("../shared/data");
 }
 
 std::string quoted(const fs::path& path) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "cambium/files.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 namespace cambium {
@@ -13,7 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::TemporaryFolder;
 
-fs::path fixture(const std::string& name) { return fs::path(CAMBIUM_BAD_PLUGINS) / (name + ".so"); }
+const fs::path fixtures = testing::built("tests/bad_plugins/libraries");
+
+fs::path fixture(const std::string& name) { return fixtures / (name + ".so"); }
 
 struct Refusal {
   const char* fixture;
@@ -155,7 +158,7 @@ TEST(Loader, one_bad_library_in_a_folder_does_not_stop_the_others) {
 
 TEST(Loader, two_libraries_of_a_folder_with_one_name_are_an_error) {
   PluginLoader loader;
-  EXPECT_THROW(loader.load_folder(CAMBIUM_BAD_PLUGINS), Error);
+  EXPECT_THROW(loader.load_folder(fixtures), Error);
 }
 
 }  // namespace

@@ -2,13 +2,12 @@
 #include "engine/engine.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <mutex>
 #include <thread>
 
-#include "engine/plain_threads.hpp"
+#include "engine/parallel.hpp"
 #include "engine/program.hpp"
 
 namespace cambium {
@@ -78,15 +77,7 @@ void Engine::parallel_for(std::size_t count, const std::function<void(std::size_
       if (i < first_index) first_index = i, first = std::current_exception();
     }
   };
-#if defined(__SANITIZE_THREAD__)
-  on_plain_threads(threads(), count, guarded);
-#else
-  arena_.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) guarded(i);
-    });
-  });
-#endif
+  in_parallel(arena_, count, guarded);
   if (cancelled()) throw Cancelled();
   if (first) std::rethrow_exception(first);
 }

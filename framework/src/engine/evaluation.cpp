@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/missions.hpp"
 #include "engine/run_folder.hpp"
+#include "engine/run_step.hpp"
 
 namespace cambium {
 namespace {
@@ -32,19 +32,6 @@ std::string of_step(const std::string& text, const std::vector<std::string>& eva
         ErrorCode::config, "--set " + text,
         fmt::format("expected EVALUATOR.PARAM=VALUE with one of: {}", fmt::join(evaluators, ", ")));
   return fmt::format("evaluate[{}]{}", found - evaluators.begin() + 1, text.substr(text.find('.')));
-}
-
-/// One step of the run folder's own pipeline, with its line in the progress display.
-StepRecord run_one(const Step& step, Known& known, const Engine& engine, std::uint64_t seed,
-                   const fs::path& out) {
-  StepRecord record;
-  record.verb = step.verb->word;
-  record.plugin = step.plugin;
-  known.atlas.payloads = known.streams.at(step.keys.payload);
-  engine.progress().begin(step.title());
-  known = step_function(step.verb->kind)(std::move(known), {step, engine, seed, out, record});
-  engine.progress().end(record.summary);
-  return record;
 }
 
 }  // namespace
@@ -79,12 +66,11 @@ ResolvedPipeline prepare_evaluation(const EvaluationOptions& options, const Regi
 std::vector<StepRecord> evaluate_run(const EvaluationOptions& options,
                                      const ResolvedPipeline& pipeline, const Registry& registry,
                                      const Engine& engine) {
-  Known known;
-  known.atlas = read_run(options.run, read_missions(pipeline.spec, registry, engine));
-  known.streams["main"] = known.atlas.payloads;
+  Known known = known_missions(pipeline, registry, engine);
+  known.atlas = read_run(options.run, std::move(known.atlas));
   std::vector<StepRecord> records;
   for (const Step& step : pipeline.steps) {
-    auto record = run_one(step, known, engine, pipeline.spec.seed, options.run);
+    auto record = run_step(step, known, engine, pipeline.spec.seed, options.run);
     if (step.verb->kind == Kind::evaluator) records.push_back(std::move(record));
   }
   return records;

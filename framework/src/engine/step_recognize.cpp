@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cambium/path.hpp"
 #include "engine/keys.hpp"
 #include "engine/steps.hpp"
 
@@ -20,16 +21,6 @@ struct MissionPair {
   std::vector<std::size_t> slices = {0};  // of the candidates, those to go on with
   std::size_t of = 1;
 };
-
-std::vector<double> travelled(const Mission& mission) {
-  std::vector<double> path;
-  for (std::size_t i = 0; i < mission.nodes.size(); ++i)
-    path.push_back(i == 0 ? 0.0
-                          : path.back() + (mission.nodes[i].T_mission_node.t -
-                                           mission.nodes[i - 1].T_mission_node.t)
-                                              .norm());
-  return path;
-}
 
 std::vector<MissionPair> mission_pairs(std::size_t count, const std::string& which) {
   std::vector<MissionPair> pairs;

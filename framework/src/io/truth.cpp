@@ -9,13 +9,10 @@
 
 #include "cambium/error.hpp"
 #include "cambium/files.hpp"
+#include "cambium/path.hpp"
 
 namespace cambium {
 namespace {
-
-double seconds_between(const Stamp& a, const Stamp& b) {
-  return double(b.sec - a.sec) + 1e-9 * (b.nsec - a.nsec);
-}
 
 std::optional<SE3> nearest(const std::vector<StampedPose>& poses, const Stamp& stamp,
                            double max_time_difference) {

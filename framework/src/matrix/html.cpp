@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "matrix/plots.hpp"
 #include "matrix/table.hpp"
 
@@ -44,12 +42,8 @@ std::string findings_html(const Results& results) {
 }
 
 std::string plots_html(const Results& results) {
-  std::vector<std::string> datasets;
-  for (const CellResult& cell : results.cells)
-    if (std::find(datasets.begin(), datasets.end(), cell.dataset()) == datasets.end())
-      datasets.push_back(cell.dataset());
   std::string out;
-  for (const std::string& dataset : datasets) {
+  for (const std::string& dataset : dataset_names(results.cells)) {
     out += fmt::format("<h2>{}</h2>\n", escaped(dataset));
     if (!results.metrics.empty())
       out += scatter_plot(results, dataset, "time.work", results.metrics.front());

@@ -2,8 +2,6 @@
 // The JUnit XML that CI systems read: a suite a dataset, a test case a cell.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "matrix/table.hpp"
 
 namespace cambium::matrix {
@@ -46,12 +44,8 @@ std::string attributes(const Counts& c) {
 }  // namespace
 
 std::string junit_xml(const Results& results) {
-  std::vector<std::string> datasets;
-  for (const CellResult& cell : results.cells)
-    if (std::find(datasets.begin(), datasets.end(), cell.dataset()) == datasets.end())
-      datasets.push_back(cell.dataset());
   std::string suites;
-  for (const std::string& dataset : datasets) {
+  for (const std::string& dataset : dataset_names(results.cells)) {
     Counts counts;
     std::string cases;
     for (const CellResult& cell : results.cells)

@@ -79,11 +79,12 @@ std::vector<std::string> metric_names(const std::vector<CellResult>& cells) {
   return names;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+std::vector<std::string> dataset_names(const std::vector<CellResult>& cells) {
+  std::vector<std::string> out;
+  for (const CellResult& cell : cells)
+    if (std::find(out.begin(), out.end(), cell.dataset()) == out.end())
+      out.push_back(cell.dataset());
+  return out;
 }
 
 }  // namespace cambium::matrix

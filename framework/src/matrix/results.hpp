@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cambium/kinds.hpp"
+#include "cambium/statistics.hpp"
 #include "engine/report.hpp"
 
 namespace cambium::matrix {
@@ -57,7 +58,8 @@ struct Results {
 const Metric* find_metric(const std::vector<CellResult>& cells, const std::string& name);
 std::vector<std::string> metric_names(
     const std::vector<CellResult>& cells);  ///< in order of appearance
-double median(std::vector<double> values);  ///< NaN of none
+/// In order of appearance.
+std::vector<std::string> dataset_names(const std::vector<CellResult>& cells);
 
 Json to_json(const Results& results);
 /// Reads results.json, or that of the folder. Throws Error(data).

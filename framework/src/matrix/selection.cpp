@@ -6,11 +6,12 @@
 #include <algorithm>
 
 namespace cambium::matrix {
-namespace {
 
 bool contains(const std::vector<std::string>& list, const std::string& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
+
+namespace {
 
 std::vector<std::string> axis_names(const Spec& spec) {
   std::vector<std::string> names = {"dataset"};

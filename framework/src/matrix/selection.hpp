@@ -5,6 +5,8 @@
 
 namespace cambium::matrix {
 
+bool contains(const std::vector<std::string>& list, const std::string& value);
+
 /// A map such as {register: gicp, dataset: [a, b]}. Unknown axes and values go to `diagnostics`.
 Selection parse_selection(const Yaml& yaml, const Spec& spec, Diagnostics& diagnostics);
 

@@ -13,10 +13,6 @@
 namespace cambium::matrix {
 namespace {
 
-bool contains(const std::vector<std::string>& list, const std::string& word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
 class Reader {
  public:
   Reader(Diagnostics& diagnostics, Form form) : diagnostics_(diagnostics), form_(form) {}

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "cambium/files.hpp"
-#include "io/temporary.hpp"
+#include "engine/output_folder.hpp"
 #include "matrix/table.hpp"
 
 namespace cambium::matrix {
@@ -13,16 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void open_folder(const fs::path& out, const Spec& spec) {
-  const fs::path own = out / "study.yaml";
-  if (fs::exists(out) && (!fs::is_directory(out) || (!fs::is_empty(out) && !fs::exists(own))))
-    throw Error(ErrorCode::config, out.string(),
-                "holds something that is not a matrix or batch of Cambium; choose an empty or new "
-                "folder");
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) throw Error(ErrorCode::data, out.string(), "cannot be made: " + error.message());
-  remove_orphans(out);
-  write_file(own, read_file(spec.file));
+  open_output_folder(out, "study.yaml", "a matrix or batch");
+  write_file(out / "study.yaml", read_file(spec.file));
 }
 
 // The columns that the file asks for, in its order; all metrics when it asks for none.

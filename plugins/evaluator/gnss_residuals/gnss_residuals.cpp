@@ -6,16 +6,13 @@
 
 #include "cambium/fused.hpp"
 #include "cambium/geodesy.hpp"
+#include "cambium/path.hpp"
 #include "cambium/plugin.hpp"
 #include "cambium/statistics.hpp"
 
 namespace {
 
 using namespace cambium;
-
-double seconds_between(const Stamp& a, const Stamp& b) {
-  return double(b.sec - a.sec) + 1e-9 * (b.nsec - a.nsec);
-}
 
 /// Where the mission was at a time, between the nodes around it; nothing outside of the path, or
 /// where the nodes are more than `max_gap` [s] apart. `path` is in order of time.

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "cambium/plugin.hpp"
-#include "cambium/statistics.hpp"
 #include "cambium/truth.hpp"
 #include "common/relative_error.hpp"
 
@@ -42,17 +41,10 @@ std::vector<NodePair> near_pairs(const Truth& truth, double max_distance, const 
   return pairs;
 }
 
-struct Errors {
-  std::vector<double> translation, rotation;  // [m], [deg]
-};
+using Errors = evaluator::RelativeErrors;  // [m, deg]
 
 void report(const std::string& name, const Errors& errors, std::vector<Metric>& metrics) {
-  if (errors.translation.empty()) return;
-  const auto add = [&](const char* what, double value, const char* unit) {
-    metrics.push_back({"inter_mission." + name + what, value, unit, Better::lower});
-  };
-  add("translation", rms(errors.translation), "m");
-  add("rotation", rms(errors.rotation), "deg");
+  evaluator::report("inter_mission." + name, errors, "m", "deg", metrics);
 }
 
 class InterMission final : public Evaluator {

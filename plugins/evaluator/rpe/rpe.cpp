@@ -7,7 +7,6 @@
 #include <string>
 
 #include "cambium/plugin.hpp"
-#include "cambium/statistics.hpp"
 #include "cambium/truth.hpp"
 #include "common/relative_error.hpp"
 
@@ -47,15 +46,7 @@ std::optional<std::size_t> partner(const std::vector<double>& path, std::size_t 
   return std::size_t(best - path.begin());
 }
 
-/// Errors of pairs of nodes, each over the true path between them.
-struct Errors {
-  std::vector<double> translation, rotation;  // [%], [deg/m]
-
-  void add(const Errors& other) {
-    translation.insert(translation.end(), other.translation.begin(), other.translation.end());
-    rotation.insert(rotation.end(), other.rotation.begin(), other.rotation.end());
-  }
-};
+using Errors = evaluator::RelativeErrors;  // each over the true path between the nodes [%, deg/m]
 
 Errors errors_over(const Track& track, double delta, double tolerance) {
   Errors out;
@@ -75,9 +66,7 @@ Errors errors_over(const Track& track, double delta, double tolerance) {
 }
 
 void report(const std::string& name, const Errors& errors, std::vector<Metric>& metrics) {
-  if (errors.translation.empty()) return;
-  metrics.push_back({"rpe." + name + "translation", rms(errors.translation), "%", Better::lower});
-  metrics.push_back({"rpe." + name + "rotation", rms(errors.rotation), "deg/m", Better::lower});
+  evaluator::report("rpe." + name, errors, "%", "deg/m", metrics);
 }
 
 class RelativePoseError final : public Evaluator {

@@ -5,15 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "cambium/path.hpp"
+
 namespace similarity_4dof {
 namespace {
 
 using cambium::GnssFix;
 using cambium::Stamp;
-
-double seconds_between(const Stamp& a, const Stamp& b) {
-  return double(b.sec - a.sec) + 1e-9 * (b.nsec - a.nsec);
-}
 
 bool usable(const GnssFix& fix) {
   return std::isfinite(fix.latitude + fix.longitude + fix.altitude) &&
@@ -49,19 +47,11 @@ FixedNode between(const GnssFix& a, const GnssFix& b, double s) {
   return out;
 }
 
-std::vector<double> path_lengths(const cambium::Mission& mission) {
-  std::vector<double> path(mission.nodes.size(), 0.0);
-  for (std::size_t i = 1; i < path.size(); ++i)
-    path[i] = path[i - 1] +
-              (mission.nodes[i].T_mission_node.t - mission.nodes[i - 1].T_mission_node.t).norm();
-  return path;
-}
-
 }  // namespace
 
 std::vector<FixedNode> fixed_nodes(const cambium::Mission& mission, double max_gap) {
   const std::vector<GnssFix> fixes = fixes_in_time(mission);
-  const std::vector<double> path = path_lengths(mission);
+  const std::vector<double> path = cambium::travelled(mission);
   struct Nearest {
     double difference;  // [s]
     FixedNode node;

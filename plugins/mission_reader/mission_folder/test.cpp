@@ -6,6 +6,7 @@
 
 #include "cambium/dialect.hpp"
 #include "cambium/files.hpp"
+#include "support/places.hpp"
 #include "support/support.hpp"
 
 namespace cambium {
@@ -331,7 +332,7 @@ TEST(MissionFolder, CovarianceColumnsAndOrderOfFixes) {
 
 /// The block ```name of docs/formats.md.
 std::string example(const std::string& name) {
-  const std::string text = read_file(fs::path(CAMBIUM_SOURCE_DIR) / "docs/formats.md");
+  const std::string text = read_file(testing::source("docs/formats.md"));
   const std::string fence = "```" + name + "\n";
   const auto begin = text.find(fence) + fence.size();
   return text.substr(begin, text.find("```", begin) - begin);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include "cambium/path.hpp"
+
 namespace tree_match {
 namespace {
 
@@ -120,21 +122,9 @@ class Mapper {
 
 }  // namespace
 
-std::vector<double> travelled(const cambium::Mission& mission) {
-  std::vector<double> path;
-  for (const auto& node : mission.nodes) {
-    const std::size_t i = path.size();
-    path.push_back(
-        i == 0
-            ? 0.0
-            : path[i - 1] + (node.T_mission_node.t - mission.nodes[i - 1].T_mission_node.t).norm());
-  }
-  return path;
-}
-
 std::vector<Stem> stem_map(const cambium::Mission& mission, const std::vector<Table>& tables,
                            const MapLimits& limits, const cambium::Context& context) {
-  const std::vector<double> path = travelled(mission);
+  const std::vector<double> path = cambium::travelled(mission);
   Mapper mapper(limits);
   for (std::size_t i = 0; i < tables.size(); ++i) {
     context.check_cancelled();

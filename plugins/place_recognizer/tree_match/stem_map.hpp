@@ -34,9 +34,6 @@ struct Detection {
 };
 using Table = std::vector<Detection>;
 
-/// Distance travelled up to each node [m].
-std::vector<double> travelled(const cambium::Mission& mission);
-
 /// One table a node, without detections that are not finite or too far away. A detector puts the
 /// bases on the ground that it believes in, which on real tables lies metres off for minutes. Where
 /// the ground around a node is not as far below it as usual in its mission, z is NaN.

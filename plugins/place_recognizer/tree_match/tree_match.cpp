@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Place recognition by the pattern that tree stems make.
+#include "cambium/path.hpp"
 #include "cambium/plugin.hpp"
 #include "search.hpp"
 
@@ -16,7 +17,7 @@ class TreeMatch final : public PlaceRecognizer {
     Place place;
     for (const Node& node : mission.mission().nodes)
       place.T_mission_node.push_back(node.T_mission_node);
-    place.path = travelled(mission.mission());
+    place.path = cambium::travelled(mission.mission());
     const auto seen = tables(mission, map_, context);
     place.begin.push_back(0);
     for (const Table& table : seen) {
