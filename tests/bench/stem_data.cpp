@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <sstream>
 #include <tuple>
 
 #include "simulate/sensor.hpp"
 #include "simulate/spec_file.hpp"
+#include "support/plain_context.hpp"
 
 namespace cambium::bench {
 namespace {
@@ -23,8 +26,8 @@ Forest grow_forest(const std::string& specification) {
   using namespace simulate;
   const SimulationSpec spec = parse_spec(specification, "bench_stems");
   const auto seed = std::uint64_t(spec.seed);
-  const Terrain terrain = make_terrain(spec.terrain, spec.stand.size, seed);
   Forest out;
+  const Terrain& terrain = out.terrain = make_terrain(spec.terrain, spec.stand.size, seed);
   out.stems = plant(spec.stand, terrain, seed);
   const auto clutter = scatter_clutter(spec.clutter, spec.stand, terrain, seed);
   Recording r = record(spec, 0, terrain, out.stems, clutter);
@@ -38,6 +41,33 @@ Forest grow_forest(const std::string& specification) {
         testing::in_memory(lidar.scan(scene, T_world_node, Random(r.seed, "scan", i)));
   }
   out.atlas = testing::make_atlas({std::move(r.mission)});
+  return out;
+}
+
+std::string specification(const Walk& w) {
+  std::ostringstream out;
+  out << "version: 1\nseed: " << w.seed
+      << "\nstand: {size: [100, 80]}\nterrain: {max_slope: " << w.slope
+      << "}\npath: {kind: line, size: [60, 0], spacing: 2}\nmissions: [{name: robot, "
+      << "platform: 1, odometry: {drift: " << w.drift << "}, sensor: {beams: " << w.beams
+      << "}}]\n";
+  return out.str();
+}
+
+Payload filtered(const Forest& forest, std::size_t node, const PayloadFilter& filter,
+                 double& seconds) {
+  const testing::PlainContext context;
+  const std::clock_t start = std::clock();
+  Payload out = filter.apply({forest.atlas, 0}, node, context);
+  seconds += double(std::clock() - start) / CLOCKS_PER_SEC;
+  return out;
+}
+
+Forest with_payload(const Forest& forest, std::size_t node, Payload payload) {
+  Forest out = forest;
+  PayloadSources sources = *forest.atlas.payloads;
+  sources[0][node] = testing::in_memory(std::move(payload));
+  out.atlas.payloads = std::make_shared<const PayloadSources>(std::move(sources));
   return out;
 }
 

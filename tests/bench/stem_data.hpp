@@ -10,6 +10,7 @@
 namespace cambium::bench {
 
 struct Forest {
+  simulate::Terrain terrain;
   std::vector<simulate::Stem> stems;
   std::vector<SE3> T_world_node;  ///< true poses
   Atlas atlas;                    ///< one mission with its clouds
@@ -17,6 +18,21 @@ struct Forest {
 
 /// What the specification (docs/simulate.md) grows, seen by its only mission.
 Forest grow_forest(const std::string& specification);
+
+/// A walk of 60 m, a scan every 2 m, through the default stand: 940 stems/ha, foliage, clutter.
+struct Walk {
+  int slope = 0;  ///< steepest of the terrain [deg]
+  int beams = 64;
+  double drift = 0.5;  ///< of the odometry after 100 m [%]
+  int seed = 1;
+};
+std::string specification(const Walk& walk);
+
+/// The forest's payload of `node` after a filter; `seconds` of processor time are added.
+Payload filtered(const Forest& forest, std::size_t node, const PayloadFilter& filter,
+                 double& seconds);
+/// The forest with another payload at `node`.
+Forest with_payload(const Forest& forest, std::size_t node, Payload payload);
 
 /// How extracted trees compare with the true ones.
 struct Tally {

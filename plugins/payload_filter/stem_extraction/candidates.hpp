@@ -12,6 +12,7 @@ struct Above {
   Eigen::Vector3f position;  ///< gravity-levelled base frame [m]
   float height = 0;          ///< above the ground [m]
   bool upright = false;      ///< the surface around it is stable and stands
+  std::uint16_t view = 0;    ///< which of the joined nodes saw it
 };
 
 struct Candidate {

@@ -2,6 +2,7 @@
 #include "ground.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,13 +41,23 @@ Ground::Ground(const std::vector<Vector3f>& points, double range, const GroundLi
 }
 
 void Ground::take_lowest(const std::vector<Vector3f>& points) {
-  lowest_.assign(std::size_t(width_ * width_), Vector3f(0, 0, unknown));
-  for (const Vector3f& p : points) {
-    const int ix = int((p.x() + range_) / limits_.cell), iy = int((p.y() + range_) / limits_.cell);
-    if (ix < 0 || iy < 0 || ix >= width_ || iy >= width_) continue;
-    Vector3f& lowest = lowest_[std::size_t(index(ix, iy))];
-    if (!(lowest.z() <= p.z())) lowest = p;
-  }
+  constexpr float thick = 0.15f;  // of the ground in a submap: noise and tilt of its scans [m]
+  std::vector<float> lowest(std::size_t(width_ * width_), std::numeric_limits<float>::max());
+  for (const Vector3f& p : points)
+    if (const int i = cell_of(p); i >= 0)
+      lowest[std::size_t(i)] = std::min(lowest[std::size_t(i)], p.z());
+  std::vector<Eigen::Vector4d> sums(lowest.size(), Eigen::Vector4d::Zero());
+  for (const Vector3f& p : points)
+    if (const int i = cell_of(p); i >= 0 && p.z() < lowest[std::size_t(i)] + thick)
+      sums[std::size_t(i)] += p.cast<double>().homogeneous();
+  for (const Eigen::Vector4d& s : sums)
+    lowest_.push_back(s[3] > 0 ? Vector3f(s.hnormalized().cast<float>()) : Vector3f(0, 0, unknown));
+}
+
+int Ground::cell_of(const Vector3f& p) const {
+  const int ix = int(std::floor((p.x() + range_) / limits_.cell));
+  const int iy = int(std::floor((p.y() + range_) / limits_.cell));
+  return ix < 0 || iy < 0 || ix >= width_ || iy >= width_ ? -1 : index(ix, iy);
 }
 
 // Echoes from below the ground are lone: nearly all of their neighbours lie higher than a slope

@@ -12,9 +12,9 @@ struct GroundLimits {
   double max_slope = 0.52;  ///< steeper is no ground: 30 degrees [rad]
 };
 
-/// Lowest points of a grid, without those that lie below or, measured by the slope to a lower one,
-/// above the ground (Vosselman, "Slope based filtering of laser altimetry data", ISPRS 2000); local
-/// planes through them, by reweighted least squares.
+/// The lowest points of each cell of a grid, without those that lie below or, measured by the slope
+/// to a lower one, above the ground (Vosselman, "Slope based filtering of laser altimetry data",
+/// ISPRS 2000); local planes through them, by reweighted least squares.
 class Ground {
  public:
   /// `points` with z up, within `range` of the origin in x and y [m].
@@ -25,6 +25,7 @@ class Ground {
 
  private:
   int index(int ix, int iy) const { return iy * width_ + ix; }
+  int cell_of(const Eigen::Vector3f& p) const;  ///< -1 outside
   template <class Visit>
   void around(int ix, int iy, int reach, Visit visit) const;
   void take_lowest(const std::vector<Eigen::Vector3f>& points);
@@ -35,7 +36,7 @@ class Ground {
   GroundLimits limits_;
   double range_;
   int width_;                            ///< cells along an axis
-  std::vector<Eigen::Vector3f> lowest_;  ///< of each cell; z is NaN where there is none
+  std::vector<Eigen::Vector3f> lowest_;  ///< mean, of each cell; z is NaN where there is none
   std::vector<float> heights_;           ///< at the corners of the cells, (width + 1)^2
 };
 

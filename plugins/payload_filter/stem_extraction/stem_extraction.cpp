@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "cambium/plugin.hpp"
+#include "common/neighbours.hpp"
 #include "common/surface.hpp"
-#include "trees.hpp"
+#include "views.hpp"
 
 namespace stem_extraction {
 
@@ -16,6 +17,11 @@ class StemExtraction final : public PayloadFilter {
     auto& [ground, candidates, fit, min_height, min_score] = limits_;
     v("max_range", candidates.range, "Stems farther from the node are not looked for",
       between(1.0, 200.0, "m"));
+    v("join_radius", join_radius_,
+      "Joins the clouds up to so far along the path and aligns them on the stems; 0: one cloud",
+      between(0.0, 1000.0, "m"));
+    v("join_spacing", join_spacing_,
+      "Nodes nearer along the path to one that is joined are left out", between(0.0, 1000.0, "m"));
     v("ground_cell", ground.cell, "The lowest point of each cell of this width may be ground",
       between(0.1, 10.0, "m"));
     v("max_slope", ground.max_slope, "Of the ground; what is steeper stands on it",
@@ -48,48 +54,71 @@ class StemExtraction final : public PayloadFilter {
     Payload payload = mission.payload(node);
     if (!payload.cloud) return payload;
     context.check_cancelled();
-    const Quat q_level_base = mission.mission().nodes[node].T_mission_node.q;
+    const Mission& m = mission.mission();
+    Views views;
+    std::vector<Point> points;
+    for (const std::size_t i : filter::neighbours(m, node, join_radius_, join_spacing_)) {
+      const auto cloud = i == node ? payload.cloud : mission.payload(i).cloud;
+      if (!cloud) continue;
+      if (i == node) views.own = views.all.size();
+      // Levelled: the axes of the mission, the origin at the node.
+      const SE3 T_level_i{m.nodes[i].T_mission_node.q,
+                          m.nodes[i].T_mission_node.t - m.nodes[node].T_mission_node.t};
+      append(*cloud, T_level_i, std::uint16_t(views.all.size()), points);
+      views.all.push_back({T_level_i.t.head<2>()});
+      context.check_cancelled();
+    }
     auto trees = std::make_shared<std::vector<Tree>>();
-    for (const Found& f : find(levelled(*payload.cloud, q_level_base), context))
-      trees->push_back(tree_of(f, q_level_base.conjugate()));
+    for (const Found& f : find(points, views, context))
+      trees->push_back(tree_of(f, m.nodes[node].T_mission_node.q.conjugate()));
     payload.trees = std::move(trees);
     if (!keep_cloud_) payload.cloud = nullptr;
     return payload;
   }
 
  private:
-  // The points near enough, turned so that z is up.
-  Cloud levelled(const Cloud& cloud, const Quat& q_level_base) const {
-    const Eigen::Matrix3f R = q_level_base.toRotationMatrix().cast<float>();
+  struct Point {
+    Eigen::Vector3f position;
+    std::uint16_t view;
+  };
+  struct Views {
+    std::vector<View> all;
+    std::size_t own = 0;
+  };
+
+  void append(const Cloud& cloud, const SE3& T_level_base, std::uint16_t view,
+              std::vector<Point>& points) const {
+    const Eigen::Matrix3f R = T_level_base.rotation().cast<float>();
+    const Eigen::Vector3f t = T_level_base.t.cast<float>();
     const float range = float(limits_.candidates.range);
-    Cloud out;
     for (Eigen::Index i = 0; i < cloud.points().cols(); ++i) {
-      const Eigen::Vector3f p = R * cloud.points().col(i);
-      if (!(p.cwiseAbs().maxCoeff() < 1e4f) || !(p.head<2>().cwiseAbs().maxCoeff() < range))
-        continue;
-      out.xyz.insert(out.xyz.end(), p.data(), p.data() + 3);
+      const Eigen::Vector3f p = R * cloud.points().col(i) + t;
+      // Written so that NaN fails.
+      if (p.head<2>().cwiseAbs().maxCoeff() < range && std::abs(p.z()) < 1e4f)
+        points.push_back({p, view});
     }
-    return out;
   }
 
-  std::vector<Found> find(const Cloud& cloud, const Context& context) const {
-    std::vector<Eigen::Vector3f> points;
-    for (Eigen::Index i = 0; i < cloud.points().cols(); ++i)
-      points.emplace_back(cloud.points().col(i));
-    const Ground ground(points, limits_.candidates.range, limits_.ground);
+  std::vector<Found> find(const std::vector<Point>& points, Views& views,
+                          const Context& context) const {
+    std::vector<Eigen::Vector3f> positions;
+    for (const Point& p : points) positions.push_back(p.position);
+    const Ground ground(positions, limits_.candidates.range, limits_.ground);
     Cloud low;
     std::vector<Above> above;
-    for (const Eigen::Vector3f& p : points) {
+    for (const auto& [p, view] : points) {
       const float height = p.z() - ground.height(p.x(), p.y());
       if (!(height > 0.2f && height < 7.5f)) continue;  // also where there is no ground
-      above.push_back({p, height, false});
+      above.push_back({p, height, false, view});
       low.xyz.insert(low.xyz.end(), p.data(), p.data() + 3);
     }
-    context.check_cancelled();
     const filter::Shapes shapes(low, surface_radius_);
     for (std::size_t i = 0; i < above.size(); ++i) above[i].upright = stands(shapes[i]);
     context.check_cancelled();
-    return find_trees(std::move(above), ground, limits_, context.seed());
+    std::vector<Found> found = find_trees(above, ground, limits_, context.seed());
+    if (views.all.size() < 2) return found;
+    align_views(views.all, views.own, limits_.fit, found, above);
+    return fitted_again(found, above, limits_);
   }
 
   static bool stands(const filter::Shape& shape) {
@@ -110,6 +139,8 @@ class StemExtraction final : public PayloadFilter {
   }
 
   Limits limits_;
+  double join_radius_ = 0.0;
+  double join_spacing_ = 0.5;
   double surface_radius_ = 0.2;
   bool keep_cloud_ = true;
 };

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "cambium/statistics.hpp"
 #include "circle.hpp"
 
 namespace stem_extraction {
@@ -18,16 +17,12 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double lowest = 0.5, highest = 3.0;  // of what is fitted, above the ground [m]
-constexpr int sectors = 16;
-constexpr double least_sigma = 0.008, largest_sigma = 0.04;  // [m]
+constexpr double least_sigma = 0.008, largest_sigma = 0.02;  // [m]
 // Radius a metre of height, mean and spread: Scots pines and spruces lose about a centimetre of
 // diameter a metre around breast height.
 constexpr double usual_taper = -0.006, spread_taper = 0.004;
 
-int sector_of(const Vector3d& off) {
-  const double turn = std::atan2(off.y(), off.x()) / (2 * std::numbers::pi) + 0.5;
-  return std::min(sectors - 1, int(turn * sectors));
-}
+std::size_t sector_of(const Vector3d& off) { return sector(off.x(), off.y()); }
 
 /// Where a line through the candidate goes: (x, y) per metre of height, by Cauchy weights whose
 /// scale falls. Heights count alike, however many points they have.
@@ -74,11 +69,13 @@ Near near_surface(const Points& points, const Stem& stem, double reach) {
     const double r = std::abs(stem.residual(p));
     if (r > reach) continue;
     out.points.push_back(&p);
-    out.count[std::size_t(sector_of(stem.off_axis(p)))] += 1;
+    out.count[sector_of(stem.off_axis(p))] += 1;
     size.push_back(r);
   }
-  if (!size.empty())
-    out.sigma = std::clamp(1.4826 * cambium::median(std::move(size)), least_sigma, largest_sigma);
+  if (size.empty()) return out;
+  const auto middle = size.begin() + std::ptrdiff_t(size.size() / 2);
+  std::nth_element(size.begin(), middle, size.end());
+  out.sigma = std::clamp(1.4826 * *middle, least_sigma, largest_sigma);
   return out;
 }
 
@@ -86,15 +83,15 @@ Near near_surface(const Points& points, const Stem& stem, double reach) {
 void refine(const Near& near, double cutoff, Stem& stem) {
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();
-  const double fair = double(near.points.size()) / sectors;
+  const double fair = double(near.points.size()) / double(sectors);
   for (const Vector3d* p : near.points) {
     const Vector3d off = stem.off_axis(*p);
     const double length = std::max(off.norm(), 1e-6), t = p->z() - breast_height;
     const double e = stem.residual(*p), u = e / cutoff;
     if (std::abs(u) >= 1) continue;
-    const double crowd = near.count[std::size_t(sector_of(off))];
+    const double crowd = near.count[sector_of(off)];
     const double weight =
-        std::pow(1 - u * u, 2) * std::min(1.0, fair / crowd) / (near.sigma * near.sigma);
+        std::pow(1 - u * u, 2) * std::sqrt(std::min(1.0, fair / crowd)) / (near.sigma * near.sigma);
     const Vector2d n = off.head<2>() / length;
     Vector6d J;
     J << -n, -t * n, -1, -t;
@@ -124,6 +121,27 @@ double Stem::residual(const Vector3d& p) const {
   return off_axis(p).norm() - radius - taper * (p.z() - breast_height);
 }
 
+bool polish(const Points& points, const FitLimits& limits, int iterations, Stem& stem) {
+  double reach = 0.08;
+  for (int i = 0; i < iterations; ++i) {
+    const Near near = near_surface(points, stem, reach);
+    if (int(near.points.size()) < limits.min_points) return false;
+    reach = std::clamp(3 * near.sigma, 0.03, 0.06);
+    refine(near, reach, stem);
+    if (!(stem.radius > 0.01 && stem.radius < limits.max_dbh)) return false;
+  }
+  const Near near = near_surface(points, stem, reach);
+  if (int(near.points.size()) < limits.min_points) return false;
+  stem.points = int(near.points.size());
+  stem.sigma = near.sigma;
+  stem.coverage = 0;
+  for (const double count : near.count) stem.coverage += (count > 0) / double(sectors);
+  const double bias = 2 * near.sigma * near.sigma;
+  stem.radius = 0.5 * (stem.radius + std::sqrt(std::max(0.0, stem.radius * stem.radius - bias)));
+  const bool sized = 2 * stem.radius >= limits.min_dbh && 2 * stem.radius <= limits.max_dbh;
+  return sized && stem.lean.norm() <= std::tan(limits.max_lean);
+}
+
 std::optional<Stem> fit_stem(const Points& points, const FitLimits& limits, std::uint64_t seed) {
   Stem stem;
   stem.taper = usual_taper;
@@ -140,23 +158,7 @@ std::optional<Stem> fit_stem(const Points& points, const FitLimits& limits, std:
   if (!circle) return std::nullopt;
   stem.center = circle->center;
   stem.radius = circle->radius;
-  double reach = 0.08;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    const Near near = near_surface(points, stem, reach);
-    if (int(near.points.size()) < limits.min_points) return std::nullopt;
-    reach = std::clamp(4 * near.sigma, 0.04, 0.1);
-    refine(near, reach, stem);
-    if (!(stem.radius > 0.01 && stem.radius < limits.max_dbh)) return std::nullopt;
-  }
-  const Near near = near_surface(points, stem, reach);
-  if (int(near.points.size()) < limits.min_points) return std::nullopt;
-  stem.points = int(near.points.size());
-  stem.sigma = near.sigma;
-  for (const double count : near.count) stem.coverage += (count > 0) / double(sectors);
-  const double bias = 2 * near.sigma * near.sigma;
-  stem.radius = 0.5 * (stem.radius + std::sqrt(std::max(0.0, stem.radius * stem.radius - bias)));
-  const bool sized = 2 * stem.radius >= limits.min_dbh && 2 * stem.radius <= limits.max_dbh;
-  if (!sized || stem.lean.norm() > std::tan(limits.max_lean)) return std::nullopt;
+  if (!polish(points, limits, 10, stem)) return std::nullopt;
   return stem;
 }
 

@@ -36,12 +36,15 @@ struct Stem {
   double residual(const Eigen::Vector3d& p) const;
 };
 
+/// Robust least squares on the distances of points from the surface, from the stem that is given.
+/// An arc of one side counts for no more than the other side, and the noise's bias of a fitted
+/// radius, sigma^2 / (2 radius), is taken off (Chernov, "Circular and Linear Regression", 2010).
+/// False where too few points lie on it, or where it grows out of the limits.
+bool polish(const Points& points, const FitLimits& limits, int iterations, Stem& stem);
+
 /// The lean from the points near a line through the candidate, a circle across it by random
-/// sampling (MSAC; Torr & Zisserman, CVIU 2000) with points inside speaking against it, then all
-/// parameters by robust least squares on distances. An arc of one side counts for no more than the
-/// other side, and the noise's bias of a fitted radius, sigma^2 / (2 radius), is taken off
-/// (Chernov, "Circular and Linear Regression", 2010). Nothing where no circle holds.
-/// `points` in an order that does not depend on the input's; `seed` names the random samples.
+/// sampling, polished. Nothing where no circle holds. `points` in an order that does not depend on
+/// the input's; `seed` names the random samples.
 std::optional<Stem> fit_stem(const Points& points, const FitLimits& limits, std::uint64_t seed);
 
 }  // namespace stem_extraction

@@ -23,8 +23,11 @@ struct Found {
   Eigen::Vector3d base() const;  ///< where the axis meets the ground
 };
 
-/// `points` with their heights above the ground.
-std::vector<Found> find_trees(std::vector<Above> points, const Ground& ground, const Limits& limits,
-                              std::uint64_t seed);
+std::vector<Found> find_trees(const std::vector<Above>& points, const Ground& ground,
+                              const Limits& limits, std::uint64_t seed);
+
+/// The trees after their points have moved a little; without those that no longer hold.
+std::vector<Found> fitted_again(const std::vector<Found>& trees, const std::vector<Above>& points,
+                                const Limits& limits);
 
 }  // namespace stem_extraction

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins the clouds that the robot took shortly before and after a node, in the node's base frame.
-#include "cambium/path.hpp"
 #include "cambium/plugin.hpp"
+#include "common/neighbours.hpp"
 #include "joined.hpp"
 
 namespace submap {
@@ -35,7 +35,7 @@ class Submap final : public PayloadFilter {
     const SE3 T_node_mission = nodes[node].T_mission_node.inverse();
     Joined joined(voxel_);
     std::size_t not_finite = 0;
-    for (const std::size_t i : used(travelled(mission.mission()), node)) {
+    for (const std::size_t i : filter::neighbours(mission.mission(), node, radius_, spacing_)) {
       context.check_cancelled();
       const auto cloud = mission.payload(i).cloud;
       if (!cloud) continue;
@@ -51,18 +51,6 @@ class Submap final : public PayloadFilter {
   }
 
  private:
-  /// Indices of nodes, ascending. Chosen from the node outwards, so that the spacing counts from
-  /// it.
-  std::vector<std::size_t> used(const std::vector<double>& path, std::size_t node) const {
-    std::vector<std::size_t> out{node};
-    for (std::size_t i = node, last = node; i-- > 0 && path[node] - path[i] <= radius_;)
-      if (path[last] - path[i] >= spacing_) out.insert(out.begin(), last = i);
-    for (std::size_t i = node + 1, last = node; i < path.size() && path[i] - path[node] <= radius_;
-         ++i)
-      if (path[i] - path[last] >= spacing_) out.push_back(last = i);
-    return out;
-  }
-
   Cloud within_range(const Cloud& cloud, std::size_t& not_finite) const {
     std::vector<std::size_t> kept;
     const auto points = cloud.points();
