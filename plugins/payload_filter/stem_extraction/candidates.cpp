@@ -69,9 +69,9 @@ class Plan {
 
 }  // namespace
 
-std::vector<Candidate> find_candidates(const std::vector<Above>& points,
+std::vector<Candidate> find_candidates(const std::vector<Above>& points, double range,
                                        const CandidateLimits& limits) {
-  Plan plan(limits.range);
+  Plan plan(range);
   for (const Above& p : points) plan.add(p);
   std::vector<Candidate> out;
   for (int iy = 0; iy < plan.width(); ++iy)

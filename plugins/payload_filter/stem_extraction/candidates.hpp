@@ -27,13 +27,13 @@ struct Candidate {
 };
 
 struct CandidateLimits {
-  double range = 20.0;       ///< [m]
   double layer_share = 0.5;  ///< of the layers between half a metre and four that must have points
   double min_upright = 0.2;  ///< share of the known layers that must have upright points
 };
 
-/// Cells of 0.1 m around which (0.3 m) enough layers have points, best first.
-std::vector<Candidate> find_candidates(const std::vector<Above>& points,
+/// Within `range` of the origin in x and y [m]. Cells of 0.1 m around which (0.3 m) enough layers
+/// have points, best first.
+std::vector<Candidate> find_candidates(const std::vector<Above>& points, double range,
                                        const CandidateLimits& limits);
 
 }  // namespace stem_extraction

@@ -71,4 +71,19 @@ struct Scene {
   }
 };
 
+inline cambium::Payload apply(cambium::Payload payload, const std::string& yaml = "{}",
+                              const cambium::SE3& T_mission_node = {}) {
+  using namespace cambium::testing;
+  cambium::Mission mission = make_mission("a", {T_mission_node});
+  mission.nodes[0].payload = in_memory(std::move(payload));
+  const cambium::Atlas atlas = make_atlas({mission});
+  return component<cambium::PayloadFilter>("stem_extraction", yaml)
+      ->apply({atlas, 0}, 0, *make_context());
+}
+
+inline std::vector<Tree> trees(const Cloud& cloud, const std::string& yaml = "{}",
+                               const cambium::SE3& T = {}) {
+  return *apply(cambium::Payload{std::make_shared<const Cloud>(cloud), nullptr}, yaml, T).trees;
+}
+
 }  // namespace stem_extraction::testing

@@ -8,7 +8,11 @@
 
 namespace stem_extraction {
 
-constexpr double breast_height = 1.3;  ///< above the ground [m]
+constexpr double breast_height = 1.3;                        ///< above the ground [m]
+constexpr double lowest_fitted = 0.5, highest_fitted = 3.0;  ///< of the points that count [m]
+/// Of the radius a metre of height: Scots pines and spruces lose about a centimetre of diameter a
+/// metre around breast height.
+constexpr double usual_taper = -0.006;
 
 struct Point {
   Eigen::Vector3d position;   ///< x, y from the candidate, z above the ground there [m]
@@ -27,7 +31,7 @@ struct Stem {
   Eigen::Vector2d center{0, 0};  ///< of the axis at breast height
   Eigen::Vector2d lean{0, 0};    ///< how far the axis moves on a metre of height
   double radius = 0;             ///< at breast height [m]
-  double taper = 0;
+  double taper = usual_taper;
   double sigma = 0;     ///< of the distances of its points from the surface [m]
   int points = 0;       ///< near the surface, where it was fitted
   double coverage = 0;  ///< share of the directions around the axis that have points, 0..1

@@ -10,17 +10,6 @@ namespace {
 using namespace cambium;
 using namespace cambium::testing;
 
-Payload apply(Payload payload, const std::string& yaml = "{}", const SE3& T_mission_node = {}) {
-  Mission mission = make_mission("a", {T_mission_node});
-  mission.nodes[0].payload = in_memory(std::move(payload));
-  const Atlas atlas = make_atlas({mission});
-  return component<PayloadFilter>("stem_extraction", yaml)->apply({atlas, 0}, 0, *make_context());
-}
-
-std::vector<Tree> trees(const Cloud& cloud, const std::string& yaml = "{}", const SE3& T = {}) {
-  return *apply(Payload{std::make_shared<const Cloud>(cloud), nullptr}, yaml, T).trees;
-}
-
 /// The reported tree nearest to a true one.
 const Tree& nearest(const std::vector<Tree>& found, const Tree& tree) {
   return *std::min_element(found.begin(), found.end(), [&](const Tree& a, const Tree& b) {

@@ -85,7 +85,7 @@ std::vector<Found> find_trees(const std::vector<Above>& points, const Ground& gr
   const Columns columns(points);
   std::vector<Found> found;
   std::vector<Candidate> before;
-  for (const Candidate& c : find_candidates(points, limits.candidates)) {
+  for (const Candidate& c : find_candidates(points, ground.range(), limits.candidates)) {
     if (taken(c, found) || tried(c, before)) continue;
     before.push_back(c);
     const auto f = tree_at(c, columns, ground, limits, seed);

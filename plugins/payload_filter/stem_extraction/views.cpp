@@ -12,7 +12,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double lowest = 0.5, highest = 3.0;  // of what is looked at, above the ground [m]
 constexpr double sigma_point = 0.02, sigma_shift = 0.05, sigma_turn = 0.005;  // [m], [m], [rad]
 
 /// What the views saw near one stem.
@@ -29,7 +28,8 @@ std::vector<Seen> near_stems(const std::vector<Found>& trees, const std::vector<
     const Vector2d at = f.stem.center;
     columns.visit(float(at.x()), float(at.y()), float(f.stem.radius + 0.25), [&](const Above& p) {
       const Vector3d q(p.position.x(), p.position.y(), p.position.z() - f.ground);
-      if (q.z() < lowest || q.z() > highest || std::abs(f.stem.residual(q)) > 0.15) return;
+      if (q.z() < lowest_fitted || q.z() > highest_fitted || std::abs(f.stem.residual(q)) > 0.15)
+        return;
       out[i].raw.push_back({q});
       out[i].view.push_back(p.view);
     });
