@@ -77,11 +77,11 @@ class StableNormals final : public PayloadFilter {
     return small.normal.dot(p) > 0 ? Vector3f(-small.normal) : small.normal;
   }
 
-  double radius_ = 0.15;
-  double scale_ = 2.0;
+  double radius_ = 0.2;
+  double scale_ = 1.5;
   int min_points_ = 6;
   double max_angle_ = 0.35;
-  double max_variation_ = 0.12;
+  double max_variation_ = 0.1;
   double min_linearity_ = 0.8;
   double max_lean_ = 0.35;
   bool normals_ = true;

@@ -56,25 +56,6 @@ TEST(StemExtraction, FindsTheStemsInRingsOfASparseLidar) {
   expect_all(trees(scene.cloud), expected);
 }
 
-TEST(StemExtraction, AnArcOfOneSideDoesNotBiasTheDiameter) {
-  for (const double arc : {M_PI, 2.1})
-    for (const double dbh : {0.12, 0.2, 0.4}) {
-      double sum = 0;
-      int count = 0;
-      for (int i = 0; i < 8; ++i) {
-        Scene scene;
-        scene.arc = arc;
-        scene.noise = 0.015;
-        scene.add_ground();
-        const double turn = 2 * M_PI * i / 8;
-        scene.add_stem(7 * std::cos(turn), 7 * std::sin(turn), dbh);
-        for (const Tree& t : trees(scene.cloud, "{join_radius: 0.1}")) sum += t.dbh - dbh, ++count;
-      }
-      EXPECT_EQ(count, 8) << dbh << " " << arc;
-      EXPECT_LT(std::abs(sum / count), 0.012) << dbh << " " << arc;
-    }
-}
-
 TEST(StemExtraction, SnagsLeavesAndLogsAreNoTrees) {
   Scene scene;
   scene.add_ground();

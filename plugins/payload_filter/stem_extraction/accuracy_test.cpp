@@ -10,6 +10,25 @@ namespace {
 using namespace cambium;
 using namespace cambium::testing;
 
+TEST(StemExtraction, AnArcOfOneSideDoesNotBiasTheDiameter) {
+  for (const double arc : {M_PI, 2.1})
+    for (const double dbh : {0.12, 0.2, 0.4}) {
+      double sum = 0;
+      int count = 0;
+      for (int i = 0; i < 8; ++i) {
+        Scene scene;
+        scene.arc = arc;
+        scene.noise = 0.015;
+        scene.add_ground();
+        const double turn = 2 * M_PI * i / 8;
+        scene.add_stem(7 * std::cos(turn), 7 * std::sin(turn), dbh);
+        for (const Tree& t : trees(scene.cloud, "{join_radius: 0.1}")) sum += t.dbh - dbh, ++count;
+      }
+      EXPECT_EQ(count, 8) << dbh << " " << arc;
+      EXPECT_LT(std::abs(sum / count), 0.012) << dbh << " " << arc;
+    }
+}
+
 /// The points of a binary PCD file with fields x y z, from the middle of their box.
 Cloud read_plot(const std::filesystem::path& file) {
   const std::string bytes = read_file(file), word = "DATA binary\n";
