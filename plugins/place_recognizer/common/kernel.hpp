@@ -14,6 +14,7 @@ namespace columns {
 struct Screening {
   float tolerated = 1.0f;  ///< pairs of a larger distance are of no interest
   float least_columns = 1.0f;
+  bool fetch_ahead = false;  ///< read on into the next tile: the loops wait for memory otherwise
 };
 
 struct Kernel {

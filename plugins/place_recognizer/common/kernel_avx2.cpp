@@ -20,11 +20,12 @@ COLUMNS_AVX2 inline __m256i add_products(__m256i sum, __m256i references, std::i
 /// Half of the lanes of one frequency; returns |cross|.
 COLUMNS_AVX2 inline __m256 multiply(const std::byte* codes, const std::byte* scales,
                                     const CoarseQuery& query, std::size_t f, std::size_t groups,
-                                    float* cross) {
+                                    float* cross, std::size_t ahead) {
   const std::int8_t* of_query = query.codes.data() + f * 8 * groups;
   __m256i re = _mm256_set1_epi32(query.offsets[2 * f]);
   __m256i im = _mm256_set1_epi32(query.offsets[2 * f + 1]);
   for (std::size_t g = 0; g < groups; ++g, codes += 64, of_query += 4) {
+    if (ahead != 0) _mm_prefetch(codes + ahead, _MM_HINT_T1);
     std::int32_t real, imaginary;
     std::memcpy(&real, of_query, 4);
     std::memcpy(&imaginary, of_query + 4 * groups, 4);
@@ -55,7 +56,8 @@ COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQue
       sum[half] = _mm256_add_ps(
           sum[half], multiply(tile + f * groups * 64 + half * 32,
                               tile + layout.scales + f * lanes * 2 + half * lanes, query, f, groups,
-                              cross + 2 * f * lanes + half * lanes / 2));
+                              cross + 2 * f * lanes + half * lanes / 2,
+                              half == 0 && screening.fetch_ahead ? layout.bytes : 0));
   Lanes sums;
   std::memcpy(&sums, sum, sizeof sums);
   return possible(shape, tile, query, screening, sums * (1.0f + 0x1p-10f));  // rsqrt: 1.5 * 2^-12

@@ -26,7 +26,9 @@ COLUMNS_AVX512 unsigned screen(Shape shape, const std::byte* tile, const CoarseQ
   for (std::size_t f = 0; f < shape.frequencies(); ++f) {
     __m512i re = _mm512_set1_epi32(query.offsets[2 * f]);
     __m512i im = _mm512_set1_epi32(query.offsets[2 * f + 1]);
+#pragma GCC unroll 2
     for (std::size_t g = 0; g < groups; ++g, codes += 64, of_query += 4) {
+      if (screening.fetch_ahead) _mm_prefetch(codes + layout.bytes, _MM_HINT_T1);
       std::int32_t real, imaginary;  // four codes each
       std::memcpy(&real, of_query, 4);
       std::memcpy(&imaginary, of_query + 4 * groups, 4);

@@ -41,8 +41,6 @@ QuerySearch::QuerySearch(const Task& task, const Table& queries, std::size_t que
       query_(query),
       least_columns_(std::max(1.0, std::ceil(task.limits.min_overlap * queries.shape.sectors))),
       nearest_(std::size_t(task.limits.candidates), task.limits.threshold),
-      cross_(queries.shape.frequencies() * 2 * lanes),
-      sums_(std::size_t(queries.shape.sectors) * lanes),
       lower_(std::size_t(queries.shape.sectors)) {
   for (std::size_t v = 0; v < queries.views; ++v) {
     const auto descriptor = queries.descriptor(query, v);
@@ -58,7 +56,7 @@ unsigned QuerySearch::allowed_lanes(std::size_t tile) const {
   return bits;
 }
 
-void QuerySearch::look_at(std::size_t tile) {
+void QuerySearch::look_at(std::size_t tile, bool fetch_ahead, Scratch& scratch) {
   const unsigned allowed = task_.pairing.within_mission ? allowed_lanes(tile) : ~0u;
   if (allowed == 0) return;
   const Shape shape = task_.references.shape;
@@ -68,14 +66,15 @@ void QuerySearch::look_at(std::size_t tile) {
   unsigned seen = 0;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     const CoarseQuery& query = views_[v].coarse;
-    const Screening screening{float(nearest_.bar()), float(least_columns_)};
-    unsigned good = allowed & task_.kernel.screen(shape, bytes, query, screening, cross_.data());
+    const Screening screening{float(nearest_.bar()), float(least_columns_), fetch_ahead && v == 0};
+    unsigned good =
+        allowed & task_.kernel.screen(shape, bytes, query, screening, scratch.cross.data());
     if (good != 0)
-      good = task_.kernel.weigh(task_.inverse, bytes, query, screening, cross_.data(), good,
-                                sums_.data());
+      good = task_.kernel.weigh(task_.inverse, bytes, query, screening, scratch.cross.data(), good,
+                                scratch.sums.data());
     for (unsigned left = good; left != 0; left &= left - 1) {
       const auto lane = std::size_t(std::countr_zero(left));
-      keep_plausible(v, tile * lanes + lane, upper[lane]);
+      keep_plausible(v, tile * lanes + lane, scratch.sums.data(), upper[lane]);
     }
     seen |= good;
   }
@@ -96,7 +95,8 @@ int QuerySearch::columns_in_common(const View& view, std::size_t reference,
   return view.coarse.overlap.count(shift, {mask, shape.words()});
 }
 
-void QuerySearch::keep_plausible(std::size_t v, std::size_t reference, double& upper) {
+void QuerySearch::keep_plausible(std::size_t v, std::size_t reference, const float* sums,
+                                 double& upper) {
   const View& view = views_[v];
   const TileLayout layout(task_.references.shape);
   const std::byte* tile = task_.references.tile(reference / lanes);
@@ -106,7 +106,7 @@ void QuerySearch::keep_plausible(std::size_t v, std::size_t reference, double& u
   const std::size_t sectors = lower_.size();
   for (std::size_t k = 0; k < sectors; ++k) {
     const int n = columns_in_common(view, reference, k);
-    const double sum = sums_[k * lanes + lane];
+    const double sum = sums[k * lanes + lane];
     lower_[k] = distance(sum + error, n, least_columns_) - slack;
     upper = std::min(upper, distance(sum - error, n, least_columns_) + slack);
   }

@@ -31,11 +31,18 @@ class Smallest {
   std::vector<double> heap_;  // the largest first
 };
 
+/// Between the parts of a kernel; one for all queries of a thread, so that it stays in the cache.
+struct Scratch {
+  explicit Scratch(Shape shape)
+      : cross(shape.frequencies() * 2 * lanes), sums(std::size_t(shape.sectors) * lanes) {}
+  std::vector<float> cross, sums;
+};
+
 class QuerySearch {
  public:
   QuerySearch(const Task& task, const Table& queries, std::size_t query,
               const Transform& transform);
-  void look_at(std::size_t tile);
+  void look_at(std::size_t tile, bool fetch_ahead, Scratch& scratch);
   std::vector<Match> matches();
 
  private:
@@ -52,7 +59,7 @@ class QuerySearch {
   int columns_in_common(const View& view, std::size_t reference, std::size_t shift) const;
   double distance_at(const View& view, std::size_t reference, std::size_t shift) const;
   /// Keeps what is plausible of a pair; lowers `upper`, the bound of its distance.
-  void keep_plausible(std::size_t view, std::size_t reference, double& upper);
+  void keep_plausible(std::size_t view, std::size_t reference, const float* sums, double& upper);
   Match best_of(std::span<const Plausible> of_reference) const;
   double refined(const Match& match, std::size_t shift) const;
 
@@ -62,7 +69,6 @@ class QuerySearch {
   std::vector<View> views_;
   Smallest nearest_;  // upper bounds
   std::vector<Plausible> plausible_;
-  std::vector<float> cross_, sums_;
   std::vector<double> lower_;
 };
 

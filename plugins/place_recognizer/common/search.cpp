@@ -45,9 +45,10 @@ std::vector<std::vector<Match>> search(const Table& queries, const Table& refere
     std::vector<QuerySearch> searches;
     for (std::size_t q = block * at_once; q < end; ++q)
       searches.emplace_back(task, queries, q, transform);
+    Scratch scratch(references.shape);
     for (std::size_t tile = 0; tile < tile_count(references.size()); ++tile) {
       if (tile % tiles_between_checks == 0) context.check_cancelled();
-      for (QuerySearch& search : searches) search.look_at(tile);
+      for (QuerySearch& search : searches) search.look_at(tile, &search == &searches[0], scratch);
     }
     for (std::size_t q = block * at_once; q < end; ++q)
       matches[q] = searches[q - block * at_once].matches();
