@@ -28,7 +28,13 @@ struct Kernel {
   unsigned (*weigh)(const InverseTransform& inverse, const std::byte* tile,
                     const CoarseQuery& query, const Screening& screening, const float* cross,
                     unsigned possible, float* sums);
+  /// Dot product in float, off by at most rounding_of_dot(count) times the sum of |a b|.
+  float (*dot)(const float* a, const float* b, std::size_t count);
 };
+
+inline double rounding_of_dot(std::size_t count) {
+  return (double(count) / double(lanes) + 2.0 * double(lanes)) * 0x1p-23;
+}
 
 /// Those that this processor can run, the fastest first. The last one needs nothing special.
 std::span<const Kernel> kernels();

@@ -69,9 +69,13 @@ COLUMNS_AVX2 unsigned weigh(const InverseTransform& inverse, const std::byte* ti
   return weigh_lanes(inverse, tile, query, screening, cross, possible, sums);
 }
 
+COLUMNS_AVX2 float dot(const float* a, const float* b, std::size_t count) {
+  return dot_product(a, b, count);
+}
+
 }  // namespace
 
-const Kernel avx2_kernel = {"avx2", screen, weigh};
+const Kernel avx2_kernel = {"avx2", screen, weigh, dot};
 
 bool can_run_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
 

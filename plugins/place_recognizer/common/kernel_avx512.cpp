@@ -59,9 +59,13 @@ COLUMNS_AVX512 unsigned weigh(const InverseTransform& inverse, const std::byte* 
   return weigh_lanes(inverse, tile, query, screening, cross, possible, sums);
 }
 
+COLUMNS_AVX512 float dot(const float* a, const float* b, std::size_t count) {
+  return dot_product(a, b, count);
+}
+
 }  // namespace
 
-const Kernel avx512_kernel = {"avx512vnni", screen, weigh};
+const Kernel avx512_kernel = {"avx512vnni", screen, weigh, dot};
 
 bool can_run_avx512() {
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&

@@ -130,4 +130,19 @@ struct FourShifts {
   return good;
 }
 
+[[gnu::always_inline]] inline float dot_product(const float* a, const float* b, std::size_t count) {
+  Lanes sums = {};
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    Lanes x, y;
+    load(x, a + i);
+    load(y, b + i);
+    sums += x * y;
+  }
+  float sum = 0;
+  for (std::size_t lane = 0; lane < lanes; ++lane) sum += sums[lane];
+  for (; i < count; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
 }  // namespace columns

@@ -49,8 +49,10 @@ unsigned weigh(const InverseTransform& inverse, const std::byte* tile, const Coa
   return weigh_lanes(inverse, tile, query, screening, cross, possible, sums);
 }
 
+float dot(const float* a, const float* b, std::size_t count) { return dot_product(a, b, count); }
+
 }  // namespace
 
-const Kernel portable_kernel = {"portable", screen, weigh};
+const Kernel portable_kernel = {"portable", screen, weigh, dot};
 
 }  // namespace columns

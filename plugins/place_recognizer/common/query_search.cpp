@@ -142,35 +142,50 @@ double QuerySearch::refined(const Match& match, std::size_t shift) const {
   return std::remainder(double(shift) + finer, double(sectors));
 }
 
+std::vector<std::span<const QuerySearch::Plausible>> QuerySearch::by_reference() const {
+  std::vector<std::span<const Plausible>> out;
+  for (auto first = plausible_.begin(); first != plausible_.end();) {
+    const auto last = std::find_if(first, plausible_.end(), [&](const Plausible& p) {
+      return p.reference != first->reference;
+    });
+    out.emplace_back(first, last);
+    first = last;
+  }
+  return out;
+}
+
+void QuerySearch::narrow() {
+  const Shape shape = task_.references.shape;
+  const double error = rounding_of_dot(shape.bins()) * (1.0 + 1e-6) * shape.sectors;
+  Smallest nearest(std::size_t(task_.limits.candidates), task_.limits.threshold);
+  double upper = infinity;
+  for (std::size_t i = 0; i < plausible_.size(); ++i) {
+    Plausible& p = plausible_[i];
+    const float* query = views_[p.view].descriptor.data();
+    const float* reference = task_.references.descriptor(p.reference, 0).data();
+    const std::size_t wrapped = std::size_t(p.shift) * std::size_t(shape.rings);
+    const std::size_t straight = shape.bins() - wrapped;
+    const double sum = double(task_.kernel.dot(query, reference + wrapped, straight)) +
+                       double(task_.kernel.dot(query + straight, reference, wrapped));
+    const int n = columns_in_common(views_[p.view], p.reference, p.shift);
+    p.lower = distance(sum + error, n, least_columns_) - slack;
+    upper = std::min(upper, distance(sum - error, n, least_columns_) + slack);
+    if (i + 1 < plausible_.size() && plausible_[i + 1].reference == p.reference) continue;
+    nearest.add(upper);
+    upper = infinity;
+  }
+  std::erase_if(plausible_, [&](const Plausible& p) { return p.lower > nearest.bar(); });
+}
+
 std::vector<Match> QuerySearch::matches() {
   std::erase_if(plausible_, [&](const Plausible& p) { return p.lower > nearest_.bar(); });
   std::sort(plausible_.begin(), plausible_.end(), [](const Plausible& a, const Plausible& b) {
     return std::tie(a.reference, a.view, a.shift) < std::tie(b.reference, b.view, b.shift);
   });
-  struct Group {
-    double lower;
-    std::span<const Plausible> of_reference;
-  };
-  std::vector<Group> groups;
-  for (auto first = plausible_.begin(); first != plausible_.end();) {
-    const auto last = std::find_if(first, plausible_.end(), [&](const Plausible& p) {
-      return p.reference != first->reference;
-    });
-    double lower = infinity;
-    for (auto p = first; p != last; ++p) lower = std::min(lower, p->lower);
-    groups.push_back({lower, {first, last}});
-    first = last;
-  }
-  std::stable_sort(groups.begin(), groups.end(),
-                   [](const Group& a, const Group& b) { return a.lower < b.lower; });
-  Smallest exact(std::size_t(task_.limits.candidates), task_.limits.threshold);
+  narrow();
   std::vector<Match> found;
-  for (const Group& group : groups) {
-    if (group.lower > exact.bar()) break;
-    found.push_back(best_of(group.of_reference));
-    exact.add(found.back().distance);
-  }
-  std::erase_if(found, [&](const Match& m) { return m.distance > exact.bar(); });
+  for (const auto of_reference : by_reference()) found.push_back(best_of(of_reference));
+  std::erase_if(found, [&](const Match& m) { return m.distance > task_.limits.threshold; });
   std::sort(found.begin(), found.end(), [](const Match& a, const Match& b) {
     return std::tie(a.distance, a.reference) < std::tie(b.distance, b.reference);
   });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One query against tile after tile. What the bytes of a tile say of a distance lies within bounds;
 // a shift of a pair is kept while its lower bound is not above the upper bounds of as many
-// references as are wanted. At the end the definition decides among what was kept.
+// references as are wanted. At the end sums in float narrow the bounds of what was kept, and the
+// definition decides among what is still left.
 #pragma once
 #include "common/filled.hpp"
 #include "common/search.hpp"
@@ -57,9 +58,12 @@ class QuerySearch {
   };
   unsigned allowed_lanes(std::size_t tile) const;
   int columns_in_common(const View& view, std::size_t reference, std::size_t shift) const;
+  /// Narrows the bounds of what was kept; less is left.
+  void narrow();
   double distance_at(const View& view, std::size_t reference, std::size_t shift) const;
   /// Keeps what is plausible of a pair; lowers `upper`, the bound of its distance.
   void keep_plausible(std::size_t view, std::size_t reference, const float* sums, double& upper);
+  std::vector<std::span<const Plausible>> by_reference() const;
   Match best_of(std::span<const Plausible> of_reference) const;
   double refined(const Match& match, std::size_t shift) const;
 

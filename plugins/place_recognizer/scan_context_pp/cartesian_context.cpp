@@ -70,7 +70,7 @@ std::vector<Placements> CartesianContext::match(const Missions& missions, Place 
   for (std::size_t q = 0; q < matches.size(); ++q)
     for (const columns::Match& m : matches[q]) {
       const SE3 T_reference_view{Quat::Identity(), {0, m.shift * grid_.bin, 0}};
-      out[q].push_back({m.reference, m.distance,
+      out[q].push_back({m.reference, 1.0 - m.distance / threshold_,
                         T_reference_view * T_base_view(grid_, views[m.view]).inverse()});
     }
   return out;

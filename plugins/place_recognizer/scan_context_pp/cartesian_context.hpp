@@ -26,7 +26,6 @@ class CartesianContext {
   /// One list a query. `limits.threshold` is replaced by that of this context.
   std::vector<Placements> match(const Missions& missions, Place query, Place reference,
                                 columns::Limits limits, const cambium::Context& context) const;
-  double threshold() const { return threshold_; }
 
  private:
   cambium::Fingerprints all_views(const cambium::Fingerprints& query, Place at) const;

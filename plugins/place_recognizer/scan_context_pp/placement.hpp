@@ -9,7 +9,7 @@ namespace scan_context_pp {
 
 struct Placement {
   std::size_t reference = 0;
-  double distance = 1.0;           ///< of the context that found it, 0..1
+  double score = 0.0;              ///< 1 the same, 0 at the threshold of the context that found it
   cambium::SE3 T_reference_query;  ///< both levelled
 };
 

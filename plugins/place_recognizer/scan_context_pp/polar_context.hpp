@@ -20,7 +20,6 @@ class PolarContext {
   /// One list a query. `limits.threshold` is replaced by that of this context.
   std::vector<Placements> match(const Missions& missions, Place query, Place reference,
                                 columns::Limits limits, const cambium::Context& context) const;
-  double threshold() const { return threshold_; }
 
  private:
   std::vector<Eigen::Vector2f> views() const;

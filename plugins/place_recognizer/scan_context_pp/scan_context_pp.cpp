@@ -59,18 +59,17 @@ class ScanContextPlusPlus final : public PlaceRecognizer {
     check_size(query);
     check_size(reference);
     const Missions missions{query, reference, pairing};
-    std::vector<std::vector<Candidate>> found(query.rows);
+    std::vector<Placements> cartesian(query.rows), polar(query.rows);
     if (uses_cartesian())
-      add(cartesian_.match(missions, cartesian_place(query), cartesian_place(reference), limits_,
-                           context),
-          cartesian_.threshold(), missions, found);
-    if (uses_polar())
-      add(polar_.match(missions, {}, {}, limits_, context), polar_.threshold(), missions, found);
+      cartesian = cartesian_.match(missions, cartesian_place(query), cartesian_place(reference),
+                                   limits_of_each(), context);
+    if (uses_polar()) polar = polar_.match(missions, {}, {}, limits_of_each(), context);
     std::vector<Candidate> out;
-    for (auto& of_query : found) {
-      keep_best(of_query);
-      out.insert(out.end(), of_query.begin(), of_query.end());
-    }
+    for (std::size_t q = 0; q < query.rows; ++q)
+      for (const Placement& p : merged(cartesian[q], polar[q]))
+        out.push_back({q, p.reference, p.score,
+                       level_base(reference, p.reference).inverse() * p.T_reference_query *
+                           level_base(query, q)});
     return out;
   }
 
@@ -92,31 +91,29 @@ class ScanContextPlusPlus final : public PlaceRecognizer {
     return {polar_floats(), polar_bytes(fingerprints.rows)};
   }
 
-  // The distances of the two contexts mean different things: a pair scores by how far it stays
-  // below the threshold of the context that found it.
-  static void add(const std::vector<Placements>& placements, double threshold,
-                  const Missions& missions, std::vector<std::vector<Candidate>>& found) {
-    const auto level_base = [](const Fingerprints& fingerprints, std::size_t node) {
-      return columns::T_level_base(fingerprints.row(node).last(columns::rotation_size));
-    };
-    for (std::size_t q = 0; q < placements.size(); ++q)
-      for (const Placement& p : placements[q])
-        found[q].push_back({q, p.reference, 1.0 - p.distance / threshold,
-                            level_base(missions.reference, p.reference).inverse() *
-                                p.T_reference_query * level_base(missions.query, q)});
+  // The distances of the two contexts mean different things, so each has its half of the proposals.
+  columns::Limits limits_of_each() const {
+    columns::Limits limits = limits_;
+    if (context_ == "both") limits.candidates = (limits_.candidates + 1) / 2;
+    return limits;
   }
 
-  void keep_best(std::vector<Candidate>& of_query) const {
-    std::stable_sort(of_query.begin(), of_query.end(), [](const Candidate& a, const Candidate& b) {
-      return std::pair(-a.score, a.reference) < std::pair(-b.score, b.reference);
-    });
-    std::vector<Candidate> kept;
-    for (const Candidate& c : of_query) {
-      const auto same = [&](const Candidate& k) { return k.reference == c.reference; };
-      if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(c);
-    }
-    kept.resize(std::min(kept.size(), std::size_t(limits_.candidates)));
-    of_query = std::move(kept);
+  /// The best of both contexts, then the second best, ...; a reference that both found counts as
+  /// the first one placed it.
+  static Placements merged(const Placements& a, const Placements& b) {
+    Placements out;
+    for (std::size_t rank = 0; rank < std::max(a.size(), b.size()); ++rank)
+      for (const Placements* list : {&a, &b}) {
+        if (rank >= list->size()) continue;
+        const Placement& next = (*list)[rank];
+        const auto same = [&](const Placement& p) { return p.reference == next.reference; };
+        if (std::none_of(out.begin(), out.end(), same)) out.push_back(next);
+      }
+    return out;
+  }
+
+  static SE3 level_base(const Fingerprints& fingerprints, std::size_t node) {
+    return columns::T_level_base(fingerprints.row(node).last(columns::rotation_size));
   }
 
   // A pipeline may give platforms other parameters; their descriptors cannot be compared.
@@ -136,7 +133,7 @@ class ScanContextPlusPlus final : public PlaceRecognizer {
   CartesianContext cartesian_;
   double height_offset_ = 2.0;
   bool level_ = true;
-  columns::Limits limits_;
+  columns::Limits limits_{10, 1.0, 0.5};
 };
 
 }  // namespace scan_context_pp
