@@ -10,6 +10,7 @@
 #include <cstring>
 #include <ctime>
 #include <limits>
+#include <map>
 
 #include "recognizer_data.hpp"
 
@@ -104,13 +105,16 @@ std::vector<std::string> parts(const std::string& method) {
 }
 
 void rows(const std::string& what, int count, char** methods, const Context& context) {
-  const Scene scene = bench::load_scene(what, context);
+  std::map<std::string, Scene> scenes = {{"", bench::load_scene(what, context)}};  // by filters
   for (int i = 0; i < count; ++i) {
+    std::string filters;
     const auto chain = parts(methods[i]);
-    Scene seen = scene;
-    for (std::size_t f = 0; f + 1 < chain.size(); ++f)
-      seen = bench::filtered(seen, chain[f], context);
-    print_row(seen, methods[i], chain.back(), context);
+    for (std::size_t f = 0; f + 1 < chain.size(); ++f) {
+      const Scene& before = scenes.at(filters);
+      filters += chain[f] + " | ";
+      if (!scenes.contains(filters)) scenes[filters] = bench::filtered(before, chain[f], context);
+    }
+    print_row(scenes.at(filters), methods[i], chain.back(), context);
   }
 }
 

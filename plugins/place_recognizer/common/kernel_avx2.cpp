@@ -18,12 +18,15 @@ COLUMNS_AVX2 inline __m256i add_products(__m256i sum, __m256i references, std::i
 }
 
 /// Half of the lanes of one frequency; returns |cross|.
-COLUMNS_AVX2 inline __m256 multiply(const std::byte* codes, const std::byte* scales,
-                                    const CoarseQuery& query, std::size_t f, std::size_t groups,
-                                    float* cross, std::size_t ahead) {
+COLUMNS_AVX2 [[gnu::always_inline]] inline __m256 multiply(const std::byte* codes,
+                                                           const std::byte* scales,
+                                                           const CoarseQuery& query, std::size_t f,
+                                                           std::size_t groups, float* cross,
+                                                           std::size_t ahead) {
   const std::int8_t* of_query = query.codes.data() + f * 8 * groups;
   __m256i re = _mm256_set1_epi32(query.offsets[2 * f]);
   __m256i im = _mm256_set1_epi32(query.offsets[2 * f + 1]);
+#pragma GCC unroll 10
   for (std::size_t g = 0; g < groups; ++g, codes += 64, of_query += 4) {
     if (ahead != 0) _mm_prefetch(codes + ahead, _MM_HINT_T1);
     std::int32_t real, imaginary;
@@ -46,10 +49,13 @@ COLUMNS_AVX2 inline __m256 multiply(const std::byte* codes, const std::byte* sca
   return _mm256_mul_ps(square, _mm256_rsqrt_ps(square));
 }
 
-COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
-                             const Screening& screening, float* cross) {
+/// `groups` is shape.groups(); where the compiler knows it, it unrolls the inner loop.
+COLUMNS_AVX2 [[gnu::always_inline]] inline unsigned screen_groups(Shape shape, std::size_t groups,
+                                                                  const std::byte* tile,
+                                                                  const CoarseQuery& query,
+                                                                  const Screening& screening,
+                                                                  float* cross) {
   const TileLayout layout(shape);
-  const std::size_t groups = shape.groups();
   __m256 sum[2] = {_mm256_setzero_ps(), _mm256_setzero_ps()};
   for (std::size_t f = 0; f < shape.frequencies(); ++f)
     for (std::size_t half = 0; half < 2; ++half)
@@ -61,6 +67,13 @@ COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQue
   Lanes sums;
   std::memcpy(&sums, sum, sizeof sums);
   return possible(shape, tile, query, screening, sums * (1.0f + 0x1p-10f));  // rsqrt: 1.5 * 2^-12
+}
+
+COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
+                             const Screening& screening, float* cross) {
+  if (shape.groups() == usual_groups)
+    return screen_groups(shape, usual_groups, tile, query, screening, cross);
+  return screen_groups(shape, shape.groups(), tile, query, screening, cross);
 }
 
 COLUMNS_AVX2 unsigned weigh(const InverseTransform& inverse, const std::byte* tile,

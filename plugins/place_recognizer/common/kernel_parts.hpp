@@ -12,6 +12,9 @@ namespace columns {
 typedef float Lanes __attribute__((vector_size(lanes * sizeof(float))));
 typedef std::int32_t LaneMask __attribute__((vector_size(lanes * sizeof(std::int32_t))));
 
+/// Of descriptors with 20 rings.
+constexpr std::size_t usual_groups = 10;
+
 [[gnu::always_inline]] inline void load(Lanes& to, const void* from) {
   std::memcpy(&to, from, sizeof(Lanes));
 }

@@ -31,7 +31,7 @@ class CartesianContext {
   cambium::Fingerprints all_views(const cambium::Fingerprints& query, Place at) const;
 
   CartesianGrid grid_;
-  double threshold_ = 0.4;
+  double threshold_ = 0.6;
 };
 
 }  // namespace scan_context_pp

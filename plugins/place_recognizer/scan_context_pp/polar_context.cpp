@@ -52,8 +52,8 @@ std::vector<Placements> PolarContext::match(const Missions& missions, Place quer
     for (const columns::Match& m : matches[q]) {
       const double yaw = 2.0 * std::numbers::pi * m.shift / grid_.shape.sectors;
       const Vec3 from(viewpoints[m.view].x(), viewpoints[m.view].y(), 0.0);
-      out[q].push_back(
-          {m.reference, m.distance, SE3::from_yaw(yaw) * SE3{Quat::Identity(), -from}});
+      out[q].push_back({m.reference, 1.0 - m.distance / threshold_,
+                        SE3::from_yaw(yaw) * SE3{Quat::Identity(), -from}});
     }
   return out;
 }
