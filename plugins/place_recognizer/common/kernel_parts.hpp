@@ -8,7 +8,7 @@
 
 namespace columns {
 
-/// One float a lane; the compiler splits it where registers are shorter.
+/// One number a lane; the compiler splits it where registers are shorter.
 typedef float Lanes __attribute__((vector_size(lanes * sizeof(float))));
 typedef std::int32_t LaneMask __attribute__((vector_size(lanes * sizeof(std::int32_t))));
 

@@ -9,6 +9,9 @@
 
 namespace columns {
 
+/// Far above the rounding errors of the definition, far below what the bytes are off by.
+constexpr double slack = 1e-9;
+
 /// What all queries share.
 struct Task {
   Table references;
