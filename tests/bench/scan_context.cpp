@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <numeric>
 
@@ -65,25 +64,6 @@ std::vector<std::size_t> ids_of(const std::vector<Candidate>& candidates, std::s
   return ids;
 }
 
-/// What any search that looks at every float needs at least. Words are read, so that adding them
-/// up costs nothing beside the memory.
-double milliseconds_to_read(const std::vector<float>& table) {
-  const std::size_t words = table.size() / 2 / 8 * 8;
-  std::uint64_t sums[8] = {};
-  double best = 1e9;
-  for (int run = 0; run < 3; ++run) {
-    const double start = cpu_milliseconds();
-    for (std::size_t i = 0; i < words; i += 8) {
-      std::uint64_t line[8];
-      std::memcpy(line, table.data() + 2 * i, sizeof line);
-      for (std::size_t j = 0; j < 8; ++j) sums[j] += line[j];
-    }
-    best = std::min(best, cpu_milliseconds() - start);
-  }
-  return sums[0] + sums[1] + sums[2] + sums[3] + sums[4] + sums[5] + sums[6] + sums[7] == 1 ? 0
-                                                                                            : best;
-}
-
 void row(World world, const char* name, std::size_t n, std::size_t checked) {
   const auto context = cambium::testing::make_context();
   const auto recognizer = cambium::testing::component<PlaceRecognizer>(
@@ -118,9 +98,9 @@ void row(World world, const char* name, std::size_t n, std::size_t checked) {
     same += expected == found[q] && expected == ids_of(candidates, q);
   }
   std::sort(single.begin(), single.end());
-  std::printf("| %zu | %s | %.2f | %.2f | %.2f | %.2f | %zu of %zu | %.0f + %.0f |\n", n, name,
-              single[single.size() / 2], single.back(), bulk, milliseconds_to_read(reference.table),
-              same, checked, 1e-6 * double(reference.table.size() * sizeof(float)),
+  std::printf("| %zu | %s | %.2f | %.2f | %.2f | %zu of %zu | %.0f + %.0f |\n", n, name,
+              single[single.size() / 2], single.back(), bulk, same, checked,
+              1e-6 * double(reference.table.size() * sizeof(float)),
               1e-6 * double(reference.extra.size()));
   std::fflush(stdout);
 }
@@ -136,8 +116,7 @@ int main(int argc, char** argv) try {
   }
   std::printf(
       "| descriptors | world | one query: median [ms] | slowest | each of %zu at once [ms] | "
-      "reading the floats [ms] | "
-      "ids as by brute force | memory [MB] |\n|---|---|---|---|---|---|---|---|\n",
+      "ids as by brute force | memory [MB] |\n|---|---|---|---|---|---|---|\n",
       queries);
   for (int i = says ? 3 : 1; i < argc; ++i) {
     const std::size_t n = std::stoul(argv[i]);
