@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matrix/child.hpp"
+#include "engine/child.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,7 +15,7 @@
 
 #include "cambium/error.hpp"
 
-namespace cambium::matrix {
+namespace cambium {
 namespace {
 
 constexpr std::chrono::seconds grace{2};  // between SIGTERM and SIGKILL
@@ -93,4 +93,4 @@ void wait_any(const std::vector<int>& descriptors, double seconds) {
   ::poll(polled.data(), polled.size(), int(seconds * 1000));
 }
 
-}  // namespace cambium::matrix
+}  // namespace cambium

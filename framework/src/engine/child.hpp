@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One cell runs in a process of its own, so that what it does to itself it does to no other.
+// A process of its own for work that may crash or hang: what it does to itself it does to no other.
 #pragma once
 #include <chrono>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-namespace cambium::matrix {
+namespace cambium {
 
 class Child {
  public:
@@ -46,4 +46,4 @@ class Child {
 /// Waits until one of the descriptors is readable, at most `seconds`.
 void wait_any(const std::vector<int>& descriptors, double seconds);
 
-}  // namespace cambium::matrix
+}  // namespace cambium
