@@ -75,13 +75,7 @@ class Projected final : public MapExporter {
 
   std::vector<std::filesystem::path> write(const Atlas& atlas, const std::filesystem::path& folder,
                                            const Context& context) const override {
-    const std::string crs = crs_ == "utm" ? utm_zone(atlas) : crs_;
-    const Projection to_grid(crs);
-    if (!to_grid.in_metres())
-      throw Error(
-          ErrorCode::config, "crs",
-          "'" + crs + "' (" + to_grid.name() +
-              ") is in degrees; expected a projected system (export: geojson writes degrees)");
+    const Projection to_grid(crs_ == "utm" ? utm_zone(atlas) : crs_);
     std::vector<std::filesystem::path> written;
     for (std::size_t i = 0; i < atlas.islands.size(); ++i) {
       const auto g = georeference(atlas, atlas.islands[i]);

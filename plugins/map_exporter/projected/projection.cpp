@@ -2,6 +2,7 @@
 #include "projection.hpp"
 
 #include <proj.h>
+#include <proj_experimental.h>  // proj_crs_promote_to_3D
 
 #include "cambium/error.hpp"
 
@@ -39,6 +40,15 @@ PJ* with_heights(PJ_CONTEXT* context, PJ* crs, std::string& heights) {
   return promoted;
 }
 
+bool is_plane(PJ_CONTEXT* context, const PJ* crs) {
+  if (proj_get_type(crs) != PJ_TYPE_COMPOUND_CRS)
+    return proj_get_type(crs) == PJ_TYPE_PROJECTED_CRS;
+  PJ* horizontal = proj_crs_get_sub_crs(context, crs, 0);
+  const bool plane = horizontal && proj_get_type(horizontal) == PJ_TYPE_PROJECTED_CRS;
+  proj_destroy(horizontal);
+  return plane;
+}
+
 }  // namespace
 
 Projection::Projection(const std::string& crs) : handles_(new Handles), crs_(crs) {
@@ -51,6 +61,10 @@ Projection::Projection(const std::string& crs) : handles_(new Handles), crs_(crs
                     "'; expected a code such as EPSG:32635, or EPSG:32635+5773 with a geoid");
   handles_->target = with_heights(context, handles_->target, heights_);
   name_ = proj_get_name(handles_->target);
+  if (!is_plane(context, handles_->target))
+    throw Error(
+        ErrorCode::config, "crs",
+        "'" + crs + "' (" + name_ + ") is no projected system; export: geojson writes degrees");
   PJ* source = proj_create(context, "EPSG:4979");  // WGS 84 with ellipsoidal heights
   // A ballpark transformation would leave heights where they are, as if there were no geoid.
   const char* const options[] = {"ALLOW_BALLPARK=NO", nullptr};
@@ -63,7 +77,6 @@ Projection::Projection(const std::string& crs) : handles_(new Handles), crs_(crs
     throw Error(ErrorCode::config, "crs",
                 "PROJ has no exact way from WGS 84 to '" + crs +
                     "'; is the grid of its geoid installed (projsync --list-files)?");
-  in_metres_ = !proj_degree_output(handles_->transform, PJ_FWD);
 }
 
 Projection::~Projection() = default;

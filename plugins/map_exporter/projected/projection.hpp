@@ -13,7 +13,8 @@ class Projection {
  public:
   /// `crs` is anything that PROJ knows: "EPSG:32635", "EPSG:32635+5773" with heights above a geoid.
   /// Without a vertical part heights stay above the ellipsoid. Throws Error(config) when PROJ does
-  /// not know it, or has no exact way to it (a geoid grid that is not installed).
+  /// not know it, when it is not a projected one, or when there is no exact way to it (a geoid grid
+  /// that is not installed).
   explicit Projection(const std::string& crs);
   ~Projection();
 
@@ -23,13 +24,11 @@ class Projection {
   const std::string& crs() const { return crs_; }          ///< as it was asked for
   const std::string& name() const { return name_; }        ///< of the system
   const std::string& heights() const { return heights_; }  ///< "ellipsoidal", or the geoid's name
-  bool in_metres() const { return in_metres_; }            ///< false for degrees
 
  private:
   struct Handles;
   std::unique_ptr<Handles> handles_;
   std::string crs_, name_, heights_ = "ellipsoidal";
-  bool in_metres_ = true;
 };
 
 }  // namespace projected

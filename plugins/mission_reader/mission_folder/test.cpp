@@ -340,6 +340,14 @@ std::string nmea(const std::string& text) {
   return "$" + text + end;
 }
 
+/// The mission has no clouds, and warns of that; these are the others.
+std::vector<std::string> gnss_warnings(const Mission& mission) {
+  std::vector<std::string> out;
+  for (const std::string& warning : mission.warnings)
+    if (warning.find("/gnss.") != std::string::npos) out.push_back(warning);
+  return out;
+}
+
 Mission with_log(const std::string& log) {
   MissionOnDisk disk;
   write_file(disk.path() / "gnss.nmea", log);
@@ -351,7 +359,7 @@ TEST(MissionFolder, NmeaSentencesBecomeFixes) {
   const Mission m =
       with_log("$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n"
                "$GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W*6A\n");
-  EXPECT_TRUE(m.warnings.empty()) << m.warnings[0];
+  EXPECT_TRUE(gnss_warnings(m).empty());
   ASSERT_EQ(m.fixes.size(), 1u);
   EXPECT_EQ(m.fixes[0].stamp, (Stamp{764426119, 0}));
   EXPECT_NEAR(m.fixes[0].latitude, 48 + 7.038 / 60, 1e-12);
@@ -386,10 +394,11 @@ TEST(MissionFolder, NmeaSaysWhatItLeavesOut) {
   ASSERT_EQ(m.fixes.size(), 2u);
   EXPECT_EQ(m.fixes[0].altitude, 168);
   EXPECT_GT(m.fixes[1].covariance(2, 2), 3600);
-  ASSERT_EQ(m.warnings.size(), 3u);
-  EXPECT_NE(m.warnings[0].find("gnss.nmea:3: 1 sentences whose checksum"), std::string::npos);
-  EXPECT_NE(m.warnings[1].find("gnss.nmea:4: 1 GGA sentences tell no place"), std::string::npos);
-  EXPECT_NE(m.warnings[2].find("gnss.nmea:5: 1 GGA sentences have no geoid"), std::string::npos);
+  const auto warnings = gnss_warnings(m);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("gnss.nmea:3: 1 sentences whose checksum"), std::string::npos);
+  EXPECT_NE(warnings[1].find("gnss.nmea:4: 1 GGA sentences tell no place"), std::string::npos);
+  EXPECT_NE(warnings[2].find("gnss.nmea:5: 1 GGA sentences have no geoid"), std::string::npos);
   EXPECT_THROW(with_log(good), Error);  // no date
 }
 
@@ -400,7 +409,7 @@ TEST(MissionFolder, QualityInPlaceOfSigmas) {
   const Mission m = disk.read();
   ASSERT_EQ(m.fixes.size(), 1u);
   EXPECT_NEAR(m.fixes[0].covariance(0, 0), 4e-4, 1e-15);
-  EXPECT_EQ(m.warnings.size(), 1u);
+  EXPECT_EQ(gnss_warnings(m).size(), 1u);
   write_file(disk.path() / "gnss.csv", "sec,nsec,lat,lon,alt,quality\n10,0,61,25,100,9\n");
   EXPECT_NE(disk.refusal().find("gnss.csv:2: found quality 9"), std::string::npos);
 }
