@@ -52,5 +52,7 @@ void add_batch(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_merge(CLI::App& app);
+void add_split(CLI::App& app);
+void add_poses(CLI::App& app);
 
 }  // namespace cambium::cli

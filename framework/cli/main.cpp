@@ -27,6 +27,8 @@ int run(int argc, char** argv) {
   add_compare(app);
   add_plan(app);
   add_merge(app);
+  add_split(app);
+  add_poses(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -34,7 +34,8 @@ std::string write_pipeline(const TemporaryFolder& folder, const std::string& tex
 
 TEST(CommandLine, EveryCommandHelpsWithAnExample) {
   for (const char* command : {"run", "validate", "inspect", "evaluate", "plugins", "schema",
-                              "simulate", "cache", "matrix", "batch", "compare"}) {
+                              "simulate", "cache", "matrix", "batch", "compare", "split",
+                              "poses"}) {
     const auto help = run_cambium({command, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_CONTAINS(help.out, "Example: cambium " + std::string(command));

@@ -21,6 +21,7 @@ struct WordReader final : MissionReader {
     for (int i = 0; i < 6; ++i)
       poses.push_back(frame_of(read_file(path)) * SE3::from_yaw(0, {5.0 * i, 0, 0}));
     Mission m = cambium::testing::make_mission(path.stem().string(), poses);
+    for (Node& node : m.nodes) node.stamp->sec += 1000 * m.name[0];  // each at its own time
     m.digest = digest_file(path);
     return m;
   }
@@ -34,7 +35,8 @@ struct SameNumber final : PlaceRecognizer {
   void params(ParamVisitor& v) override { v("margin", margin, "Of no use", above(0)); }
   Fingerprints describe(const MissionView& m, const Context&) const override {
     ++describe_calls;
-    return {1, 1, {m.mission().name.starts_with("far") ? 0.f : 1.f}, {}};
+    const std::string& name = m.mission().name;
+    return {1, 2, {name.starts_with("far") ? 0.f : 1.f, float(name.size())}, {}};
   }
   std::vector<Candidate> match(const Fingerprints& q, const Fingerprints& r, const Pairing& pairing,
                                const Context&) const override {
@@ -140,6 +142,36 @@ TEST_F(EngineRun, BytesDoNotDependOnOrderOrThreads) {
   run({m[2], m[3], m[1], m[0]}, "two", 4);
   for (const char* name : {"fused.g2o", "fused_island_1.g2o", "ccc.tum", "ledger.jsonl"})
     EXPECT_EQ(read_file(folder / "one" / name), read_file(folder / "two" / name)) << name;
+}
+
+TEST_F(EngineRun, AFinishedRunGrowsByNewPairsOnly) {
+  const std::string a = mission("a"), b = mission("bb"), c = mission("ccc");
+  run({a, b}, "ab");
+  const auto grown = run({(folder / "ab").string(), c}, "grown");
+  // Known are two descriptions and the pairs a-a, bb-bb and a-bb, of three and six.
+  EXPECT_EQ(grown.steps[0].items, 9u);
+  EXPECT_EQ(grown.steps[0].cached, 5u);
+  fs::remove_all(folder / "cache");
+  run({a, b, c}, "abc");
+  for (const char* name : {"fused.g2o", "a.tum", "bb.tum", "ccc.tum", "ledger.jsonl"})
+    EXPECT_EQ(read_file(folder / "grown" / name), read_file(folder / "abc" / name)) << name;
+  // Runs may overlap; the missions that both have stay once.
+  run({b, c}, "bc");
+  const auto both = run({(folder / "ab").string(), (folder / "bc").string()}, "both");
+  EXPECT_EQ(both.known.atlas.missions.size(), 3u);
+}
+
+TEST_F(EngineRun, ACopyOfAMissionIsRefused) {
+  const std::string a = mission("a");
+  fs::copy(a, folder / "aa.txt");
+  try {
+    run({a, (folder / "aa.txt").string()}, "out");
+    FAIL() << "expected a refusal";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::data);
+    EXPECT_NE(std::string(e.what()).find("'a' and 'aa' are the same recording"), std::string::npos)
+        << e.what();
+  }
 }
 
 TEST_F(EngineRun, MissionsThatNeverMeetAreIslands) {

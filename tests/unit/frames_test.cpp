@@ -87,7 +87,7 @@ TEST(JoinIslands, ChainsAndLaterWavesGrowTheSameIsland) {
 TEST(BuildGraph, HoldsTheFirstNodeOrWhatFixNames) {
   Atlas atlas = join_islands(two_missions(0));
   const auto no_warning = [](const std::string& w) { FAIL() << w; };
-  IslandGraph g = build_graph(atlas, 0, 0, no_warning);
+  IslandGraph g = build_graph(atlas, 0, 0, {}, no_warning);
   EXPECT_EQ(g.nodes.size(), 40u);
   EXPECT_EQ(g.loops.size(), 20u);
   EXPECT_EQ(g.graph.relative.size(), 19u + 19u + 20u);
@@ -99,16 +99,72 @@ TEST(BuildGraph, HoldsTheFirstNodeOrWhatFixNames) {
   Mission fixed = *atlas.missions[0].mission;
   fixed.nodes[7].fixed = true;
   atlas.missions[0].mission = std::make_shared<const Mission>(fixed);
-  g = build_graph(atlas, 0, 0, no_warning);
+  g = build_graph(atlas, 0, 0, {}, no_warning);
   EXPECT_TRUE(g.graph.fixed[7]);
   EXPECT_FALSE(g.graph.fixed[0]);
 }
 
 TEST(BuildGraph, AttitudeFactorsAgreeWithWhereTheMissionIs) {
   const Atlas atlas = join_islands(two_missions(0));
-  const IslandGraph g = build_graph(atlas, 0, 0.02, [](const std::string&) {});
+  const IslandGraph g = build_graph(atlas, 0, 0.02, {}, [](const std::string&) {});
   ASSERT_EQ(g.graph.attitude.size(), 40u);
   PoseGraph only = g.graph;
   only.relative.clear();
   EXPECT_LT(cost(only, only.T_map_node), 1e-18);
+}
+
+TEST(BuildGraph, PositionsOfTheIslandBecomeFactorsAndHoldTheGauge) {
+  Atlas atlas = two_missions(0);
+  atlas.islands = {{{0, 1}, {}, {}}};
+  atlas.missions[1].island = 0;
+  const auto quiet = [](const std::string&) {};
+  for (std::uint32_t i = 0; i < 4; ++i)
+    atlas.islands[0].positions.push_back({{1, i}, Vec3(i, 1, 2), 3 * Mat3::Identity()});
+  IslandGraph g = build_graph(atlas, 0, 0, {}, quiet);
+  ASSERT_EQ(g.graph.positions.size(), 4u);
+  EXPECT_EQ(g.graph.positions[2].node, 22u);
+  EXPECT_EQ(g.graph.positions[2].t_map, Vec3(2, 1, 2));
+  EXPECT_TRUE(g.graph.positions[2].robust);
+  EXPECT_EQ(std::count(g.graph.fixed.begin(), g.graph.fixed.end(), true), 0);
+  EXPECT_EQ(g.graph.attitude.size(), 1u);  // a straight path would be free to roll
+  atlas.islands[0].positions.resize(2);
+  g = build_graph(atlas, 0, 0, {}, quiet);
+  EXPECT_TRUE(g.graph.fixed[0]);
+}
+
+TEST(BuildGraph, AMissionThatIsNotLevelHasNoAttitudeFactors) {
+  Atlas atlas = two_missions(0);
+  atlas.islands = {{{0, 1}, {}, {}}};
+  atlas.missions[1].island = 0;
+  const IslandGraph g = build_graph(atlas, 0, 0.02, {1}, [](const std::string&) {});
+  ASSERT_EQ(g.graph.attitude.size(), 20u);
+  for (const auto& f : g.graph.attitude) EXPECT_LT(f.node, 20u);
+}
+
+TEST(JoinIslands, TheOrderOfTheMissionsDoesNotShow) {
+  std::vector<Mission> missions;
+  for (const char* name : {"a", "b", "c", "d"})
+    missions.push_back(cambium::testing::make_mission(
+        name, seen_from(SE3::from_yaw(0.3 * name[0], {1.0 * name[0], 2, 3}), straight_path(20))));
+  const auto fused = [&](const std::vector<int>& order) {
+    std::vector<Mission> named;
+    for (const int i : order) named.push_back(missions[std::size_t(i)]);
+    Atlas atlas = cambium::testing::make_atlas(named);  // sorts by name, as the engine does
+    for (std::uint32_t a = 0; a < 4; ++a)
+      for (std::uint32_t i = 0; i < 20; ++i)
+        atlas.loops.push_back(
+            accepted({a, i}, {(a + 1) % 4, i}, SE3::from_yaw(1e-3 * i, {0.01 * i, 0, 0})));
+    return join_islands(std::move(atlas));
+  };
+  const Atlas first = fused({0, 1, 2, 3});
+  ASSERT_EQ(first.islands.size(), 1u);
+  std::vector<int> order{0, 1, 2, 3};
+  while (std::next_permutation(order.begin(), order.end())) {
+    const Atlas other = fused(order);
+    for (std::uint32_t m = 0; m < 4; ++m)
+      for (std::uint32_t n = 0; n < 20; ++n) {
+        EXPECT_EQ(first.T_map_node({m, n}).t, other.T_map_node({m, n}).t);
+        EXPECT_EQ(first.T_map_node({m, n}).q.coeffs(), other.T_map_node({m, n}).q.coeffs());
+      }
+  }
 }

@@ -43,10 +43,18 @@ struct MissionState {
   NodeId id_offset = 0;  ///< a node's id in the fused graph is id + id_offset
 };
 
+/// Where a node is by what is known outside of the map (GNSS), in the map frame of its island.
+struct NodePosition {
+  NodeRef node;
+  Vec3 t_map = Vec3::Zero();
+  Mat3 information = Mat3::Identity();
+};
+
 /// Missions that are tied together. They share one map frame and one georeference.
 struct Island {
   std::vector<std::uint32_t> missions;       ///< ascending
   std::optional<GeoReference> georeference;  ///< replaces those of its missions
+  std::vector<NodePosition> positions = {};  ///< made with the georeference, for the optimisation
 };
 
 using PayloadSources = std::vector<std::vector<std::shared_ptr<const PayloadSource>>>;

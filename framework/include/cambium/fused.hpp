@@ -19,7 +19,7 @@ SE3 T_map_mission(const MissionState& state);
 std::optional<GeoReference> georeference(const Atlas& atlas, const Island& island);
 
 /// The island as one graph: nodes at their poses in the map with ids + id_offset, the edges of all
-/// missions, and the accepted loops. What a joint file cannot say becomes a comment that names the
+/// missions, the island's positions, and the accepted loops. What a joint file cannot say becomes a comment that names the
 /// mission: platform ids, own GNSS lines, unknown lines; FIX lines and priors of all missions but
 /// the first, whose frame is the map frame; weights of loops that the last optimisation doubted.
 /// Throws Error(data) when two missions share an id.

@@ -140,6 +140,8 @@ struct GnssAlignment {
   std::optional<GeoReference> georeference;
   std::string reason;
   std::vector<Score> scores;
+  /// With a georeference: position factors for the optimisations that follow, at most one a node.
+  std::vector<NodePosition> positions = {};
 };
 
 class GnssAligner : public Component {

@@ -152,16 +152,20 @@ void fields(A& a, GeoReference& x) {
   a(x.latitude, x.longitude, x.altitude, x.T_map_enu, x.sigma_yaw, x.sigma_position);
 }
 template <class A>
+void fields(A& a, NodeRef& x) {
+  a(x.mission, x.node);
+}
+template <class A>
+void fields(A& a, NodePosition& x) {
+  a(x.node, x.t_map, x.information);
+}
+template <class A>
 void fields(A& a, GnssAlignment& x) {
-  a(x.georeference, x.reason, x.scores);
+  a(x.georeference, x.reason, x.scores, x.positions);
 }
 template <class A>
 void fields(A& a, Metric& x) {
   a(x.name, x.value, x.unit, x.better);
-}
-template <class A>
-void fields(A& a, NodeRef& x) {
-  a(x.mission, x.node);
 }
 template <class A>
 void fields(A& a, Loop& x) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/open_run.hpp"
 #include "engine/run_folder.hpp"
 #include "engine/run_step.hpp"
 
@@ -40,7 +41,7 @@ ResolvedPipeline prepare_evaluation(const EvaluationOptions& options, const Regi
   if (!options.truth.empty() && !fs::is_directory(options.truth))
     throw Error(ErrorCode::config, options.truth.string(),
                 "is no folder; expected one with <mission>/ground_truth.tum or <mission>.tum");
-  if (!fs::exists(options.run / "report.json") || !fs::exists(options.run / "resolved.yaml"))
+  if (!is_run(options.run))
     throw Error(ErrorCode::config, options.run.string(),
                 "holds no finished run (report.json and resolved.yaml); name the folder that "
                 "'cambium run --out' wrote");

@@ -101,8 +101,9 @@ Atlas join_islands(Atlas atlas) {
     MissionState& state = atlas.missions[m];
     const Body& body = bodies[state.island];
     const auto [it, fresh] = number.emplace(body.root, std::uint32_t(islands.size()));
-    // The georeference stays with the frame it was made for.
-    if (fresh) islands.push_back({{}, atlas.islands[body.root].georeference});
+    // The georeference stays with the frame it was made for, and so do positions.
+    const Island& root = atlas.islands[body.root];
+    if (fresh) islands.push_back({{}, root.georeference, root.positions});
     islands[it->second].missions.push_back(m);
     auto poses = *state.T_map_node;
     for (SE3& T : poses) T = body.T_root_body * T;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 namespace cambium {
 namespace {
@@ -57,6 +58,13 @@ class Builder {
           {first_[m] + n, nodes[n].T_mission_node.q.conjugate() * Vec3::UnitZ(), sigma});
   }
 
+  void add_positions() {
+    for (const NodePosition& p : island_.positions)
+      out.graph.positions.push_back({first_.at(p.node.mission) + p.node.node, p.t_map,
+                                     p.information, true,
+                                     fmt::format("GNSS position of node {}", id(p.node))});
+  }
+
   void add_loops() {
     for (std::size_t i = 0; i < atlas_.loops.size(); ++i) {
       const Loop& loop = atlas_.loops[i];
@@ -78,11 +86,21 @@ class Builder {
       if (nodes[n].fixed) any = out.graph.fixed[first_[m] + n] = true;
     if (!any && out.graph.priors.empty() && out.graph.positions.size() < 3)
       out.graph.fixed[first_[m]] = true;
+    else if (!any && !island_.positions.empty())
+      keep_level(m);
   }
 
   IslandGraph out;
 
  private:
+  // Positions along a straight path leave the roll about it free.
+  void keep_level(std::uint32_t m) {
+    const Vec3 up = (*atlas_.missions[m].T_map_node)[0].q.conjugate() * Vec3::UnitZ();
+    out.graph.attitude.push_back({first_[m], up, 1.0 * std::numbers::pi / 180});
+  }
+
+  NodeId id(NodeRef n) const { return atlas_.node(n).id + atlas_.missions[n.mission].id_offset; }
+
   std::size_t index(std::uint32_t m, NodeId id) const {
     return first_.at(m) + atlas_.missions[m].mission->index_of(id).value();
   }
@@ -95,12 +113,14 @@ class Builder {
 }  // namespace
 
 IslandGraph build_graph(const Atlas& atlas, std::uint32_t island, double attitude_sigma,
+                        const std::set<std::uint32_t>& not_level,
                         const std::function<void(const std::string&)>& warn) {
   Builder builder(atlas, atlas.islands[island]);
   for (const std::uint32_t m : atlas.islands[island].missions) {
     builder.add_edges(m, warn);
-    if (attitude_sigma > 0) builder.add_attitudes(m, attitude_sigma);
+    if (attitude_sigma > 0 && !not_level.contains(m)) builder.add_attitudes(m, attitude_sigma);
   }
+  builder.add_positions();
   builder.add_loops();
   builder.fix_gauge();
   return std::move(builder.out);

@@ -29,7 +29,9 @@ std::vector<std::pair<std::string, Digest>> atlas_key_parts(const Atlas& atlas) 
     islands.add(std::uint64_t(s.island));
   }
   for (const Island& island : atlas.islands)
-    islands.add(encode(island.missions)).add(encode(island.georeference));
+    islands.add(encode(island.missions))
+        .add(encode(island.georeference))
+        .add(encode(island.positions));
   return {{"missions", missions.digest()},
           {"payloads", payloads.digest()},
           {"poses", poses.digest()},

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cambium/dialect.hpp"
+#include "engine/copies.hpp"
 
 namespace cambium {
 namespace {
@@ -157,6 +158,7 @@ Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const En
   std::stable_sort(missions.begin(), missions.end(),
                    [](const Mission& a, const Mission& b) { return a.name < b.name; });
   check_names(missions);
+  refuse_copies(missions);
   std::size_t nodes = 0;
   for (const auto& m : missions) nodes += m.nodes.size();
   engine.progress().end(fmt::format("{} missions, {} nodes", missions.size(), nodes));

@@ -9,6 +9,7 @@
 #include "cambium/files.hpp"
 #include "cambium/fused.hpp"
 #include "engine/explain.hpp"
+#include "engine/open_run.hpp"
 #include "engine/output_folder.hpp"
 #include "engine/run_step.hpp"
 
@@ -49,6 +50,7 @@ ResolvedPipeline prepare_run(const RunOptions& options, const Registry& registry
   // Absolute, as those of a file: resolved.yaml lies elsewhere and must mean the same missions.
   for (const auto& m : options.missions)
     p.missions.push_back({fs::absolute(m).lexically_normal().string(), "", "", {}, "command line"});
+  p.missions = without_runs(p.missions);
   return resolve(p, registry);
 }
 

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/keys.hpp"
 #include "engine/steps.hpp"
 
 namespace cambium {
+namespace {
+
+void check(const Island& island, const Step& step) {
+  for (const NodePosition& p : island.positions)
+    if (!std::binary_search(island.missions.begin(), island.missions.end(), p.node.mission) ||
+        !p.t_map.allFinite() || !p.information.allFinite())
+      throw Error(ErrorCode::plugin, step.registered->library,
+                  fmt::format("'{}' gave a position that is not finite, or of a mission that is "
+                              "not of the island",
+                              step.plugin));
+}
+
+}  // namespace
 
 Known run_georeference(Known known, const StepScope& scope) {
   auto& islands = known.atlas.islands;
@@ -25,6 +40,11 @@ Known run_georeference(Known known, const StepScope& scope) {
       scope.record.figures.emplace_back(fmt::format("island_{}.{}", i, name), value);
     if (found[i].georeference) {
       islands[i].georeference = found[i].georeference;
+      islands[i].positions = std::move(found[i].positions);
+      check(islands[i], scope.step);
+      if (!islands[i].positions.empty())
+        scope.record.figures.emplace_back(fmt::format("island_{}.positions", i),
+                                          double(islands[i].positions.size()));
       ++tied;
     } else {
       const auto& first = *known.atlas.missions[islands[i].missions.front()].mission;

@@ -5,12 +5,16 @@
 
 #include "engine/frames.hpp"
 #include "engine/graph.hpp"
+#include "engine/gravity.hpp"
 #include "engine/keys.hpp"
 #include "engine/marginals.hpp"
 #include "engine/steps.hpp"
 
 namespace cambium {
 namespace {
+
+// Lidar-inertial odometry is level to a degree; a frame of another kind is off by a right angle.
+constexpr double max_tilt = 5 * std::numbers::pi / 180;
 
 Digest graph_key(const PoseGraph& g) {
   Encoder e;
@@ -63,8 +67,10 @@ Known run_optimize(Known known, const StepScope& scope) {
   };
   const double sigma = scope.step.keys.attitude_sigma * std::numbers::pi / 180;
   std::vector<IslandGraph> graphs;
-  for (std::uint32_t i = 0; i < atlas.islands.size(); ++i)
-    graphs.push_back(build_graph(atlas, i, sigma, warn));
+  for (std::uint32_t i = 0; i < atlas.islands.size(); ++i) {
+    const auto tilted = not_level(atlas, atlas.islands[i], max_tilt, warn);
+    graphs.push_back(build_graph(atlas, i, sigma, tilted, warn));
+  }
   ask_for_marginals(atlas, scope.step.keys.marginals, graphs);
 
   std::vector<Solution> solutions(graphs.size());

@@ -65,6 +65,16 @@ class Fusion {
     fused_.edges.push_back(std::move(edge));
   }
 
+  void add_position(const NodePosition& position) {
+    Edge edge;
+    edge.kind = EdgeKind::position;
+    edge.tail = edge.head = id(position.node);
+    edge.T_tail_head.t = position.t_map;
+    edge.information.topLeftCorner<3, 3>() = position.information;
+    edge.tag = "EDGE_SE3_PRIORXYZ";
+    fused_.edges.push_back(std::move(edge));
+  }
+
   Mission finish(const Island& island) && {
     std::sort(fused_.nodes.begin(), fused_.nodes.end(),
               [](const Node& a, const Node& b) { return a.id < b.id; });
@@ -116,6 +126,7 @@ Mission fused_mission(const Atlas& atlas, const Island& island) {
   const auto in_island = [&](NodeRef n) {
     return std::binary_search(island.missions.begin(), island.missions.end(), n.mission);
   };
+  for (const NodePosition& position : island.positions) fusion.add_position(position);
   for (const Loop& loop : atlas.loops) {
     if (loop.state == LoopState::accepted && in_island(loop.tail) && in_island(loop.head))
       fusion.add_loop(loop);

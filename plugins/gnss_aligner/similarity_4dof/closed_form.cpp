@@ -12,10 +12,7 @@ namespace similarity_4dof {
 namespace {
 
 using cambium::Vec3;
-
-double horizontal_variance(const Pair& pair) {
-  return (pair.covariance(0, 0) + pair.covariance(1, 1)) / 2;
-}
+using cambium::gnss::horizontal_variance;
 
 struct Weighted {
   std::vector<Vec3> p_map, p_enu;
@@ -29,7 +26,7 @@ Weighted weighted(const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) {
     out.p_map.push_back(pair.p_map);
     out.p_enu.push_back(pair.p_enu);
-    out.weight.push_back(1 / horizontal_variance(pair));
+    out.weight.push_back(1 / horizontal_variance(pair.covariance));
     out.total += out.weight.back();
     out.centre_map += out.weight.back() * pair.p_map;
   }
@@ -43,7 +40,7 @@ void measure_residuals(const std::vector<Pair>& pairs, Fit& fit) {
     const Vec3 residual = pair.p_map - fit.T_map_enu * pair.p_enu;
     const double horizontal = residual.head<2>().norm();
     squares += horizontal * horizontal;
-    chi_squares += horizontal * horizontal / horizontal_variance(pair);
+    chi_squares += horizontal * horizontal / horizontal_variance(pair.covariance);
     vertical += residual.z() * residual.z();
     fit.max_horizontal = std::max(fit.max_horizontal, horizontal);
   }

@@ -3,15 +3,11 @@
 #pragma once
 #include <vector>
 
-#include "cambium/se3.hpp"
+#include "common/fixes.hpp"
 
 namespace similarity_4dof {
 
-/// The same place measured and mapped.
-struct Pair {
-  cambium::Vec3 p_enu, p_map;
-  cambium::Mat3 covariance;  ///< of p_enu, east, north, up [m^2]
-};
+using cambium::gnss::Pair;
 
 struct Fit {
   cambium::SE3 T_map_enu;

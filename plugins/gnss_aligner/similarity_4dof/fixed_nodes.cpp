@@ -6,32 +6,13 @@
 #include <map>
 
 #include "cambium/path.hpp"
+#include "common/fixes.hpp"
 
 namespace similarity_4dof {
 namespace {
 
 using cambium::GnssFix;
 using cambium::Stamp;
-
-bool usable(const GnssFix& fix) {
-  return std::isfinite(fix.latitude + fix.longitude + fix.altitude) &&
-         std::abs(fix.latitude) <= 90 && fix.covariance.allFinite() && fix.covariance(0, 0) > 0 &&
-         fix.covariance(1, 1) > 0;
-}
-
-std::vector<GnssFix> fixes_in_time(const cambium::Mission& mission) {
-  std::vector<GnssFix> fixes = mission.fixes;
-  for (std::size_t i = 0; i < fixes.size(); ++i) {
-    if (usable(fixes[i])) continue;
-    throw cambium::Error(cambium::ErrorCode::data, mission.folder.string(),
-                         "GNSS fix " + std::to_string(i) + " of mission " + mission.name +
-                             " is no place on the globe or has no positive variance east and "
-                             "north; expected finite degrees, metres and square metres");
-  }
-  std::stable_sort(fixes.begin(), fixes.end(),
-                   [](const GnssFix& a, const GnssFix& b) { return a.stamp < b.stamp; });
-  return fixes;
-}
 
 /// Longitudes 179.9 and -179.9 are neighbours.
 double across_date_line(double from, double to) { return std::remainder(to - from, 360.0); }
@@ -50,7 +31,7 @@ FixedNode between(const GnssFix& a, const GnssFix& b, double s) {
 }  // namespace
 
 std::vector<FixedNode> fixed_nodes(const cambium::Mission& mission, double max_gap) {
-  const std::vector<GnssFix> fixes = fixes_in_time(mission);
+  const std::vector<GnssFix> fixes = cambium::gnss::fixes_in_time(mission);
   const std::vector<double> path = cambium::travelled(mission);
   struct Nearest {
     double difference;  // [s]

@@ -2,26 +2,17 @@
 // Georeferencing of DigiForest D3.1: yaw and translation between k nodes and their GNSS fixes.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 
 #include "cambium/plugin.hpp"
-#include "carry.hpp"
 #include "closed_form.hpp"
+#include "common/carry.hpp"
 #include "fixed_nodes.hpp"
 
 namespace similarity_4dof {
 namespace {
 
 using namespace cambium;
-
-constexpr double degree = std::numbers::pi / 180;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+using namespace cambium::gnss;
 
 /// A node with its place, of any mission of the island.
 struct Measured {
@@ -48,11 +39,7 @@ class Similarity4Dof final : public GnssAligner {
   GnssAlignment align(const Atlas& atlas, const Island& island,
                       const Context& context) const override {
     GnssAlignment result = from_fixes(atlas, island, context);
-    if (result.georeference) return result;
-    GnssAlignment carried = carry(atlas, island);
-    if (!carried.georeference) return result;
-    carried.reason = "taken from the missions' own GNSS lines: " + result.reason;
-    return carried;
+    return result.georeference ? result : or_carried(result, atlas, island);
   }
 
  private:

@@ -5,8 +5,8 @@
 
 #include "cambium/fused.hpp"
 #include "cambium/plugin.hpp"
+#include "common/voxel_set.hpp"
 #include "point_file.hpp"
-#include "voxel_set.hpp"
 
 namespace cloud {
 namespace {
@@ -42,7 +42,7 @@ class MapFile {
 
  private:
   PointFile file_;
-  VoxelSet taken_;
+  map_export::VoxelSet taken_;
   std::size_t skipped_ = 0;
 };
 

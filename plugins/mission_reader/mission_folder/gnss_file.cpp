@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "csv_table.hpp"
+#include "fix_quality.hpp"
 
 namespace cambium {
 namespace {
@@ -53,6 +54,14 @@ GnssFix fix_of(const CsvTable& table, std::size_t row) {
   return fix;
 }
 
+int quality_of(const CsvTable& table, std::size_t row) {
+  const std::int64_t quality = table.integer(row, "quality");
+  if (quality > 8)
+    table.fail(row, "found quality " + table.text(row, "quality") +
+                        ", expected that of a GGA sentence, 0 to 8");
+  return int(quality);
+}
+
 }  // namespace
 
 std::vector<GnssFix> load_fixes(const std::filesystem::path& path,
@@ -62,20 +71,35 @@ std::vector<GnssFix> load_fixes(const std::filesystem::path& path,
   std::vector<std::string> known = place;
   known.insert(known.end(), sigma.begin(), sigma.end());
   known.insert(known.end(), covariance.begin(), covariance.end());
+  known.push_back("quality");
   table.allow_only(known);
   const bool has_covariance = table.has(covariance[0]), has_sigma = table.has(sigma[0]);
   if (has_covariance) table.require(covariance);
   if (has_sigma) table.require(sigma);
-  if (!has_covariance && !has_sigma)
-    warnings.push_back(path.string() + ":1: no columns sd_e,sd_n,sd_u; 1 m is taken for every fix");
+  const bool has_quality = table.has("quality");
+  if (!has_covariance && !has_sigma && !has_quality)
+    warnings.push_back(
+        path.string() +
+        ":1: no columns sd_e,sd_n,sd_u and no column quality; 1 m is taken for every fix");
   std::vector<GnssFix> fixes;
+  std::size_t without_place = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    const int quality = has_quality ? quality_of(table, row) : 1;
+    if (!measured(quality)) {
+      ++without_place;
+      continue;
+    }
     fixes.push_back(fix_of(table, row));
     if (has_covariance)
       fixes.back().covariance = from_covariance(table, row);
     else if (has_sigma)
       fixes.back().covariance = from_sigma(table, row);
+    else if (has_quality)
+      fixes.back().covariance = covariance_of_quality(quality);
   }
+  if (without_place > 0)
+    warnings.push_back(path.string() + ": " + std::to_string(without_place) +
+                       " rows whose quality says that nothing was measured are left out");
   std::stable_sort(fixes.begin(), fixes.end(),
                    [](const GnssFix& a, const GnssFix& b) { return a.stamp < b.stamp; });
   return fixes;

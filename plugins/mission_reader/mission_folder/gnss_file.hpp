@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gnss.csv: sec,nsec,lat,lon,alt and either sd_e,sd_n,sd_u or
-// cov_ee,cov_en,cov_eu,cov_nn,cov_nu,cov_uu.
+// gnss.csv: sec,nsec,lat,lon,alt and one of sd_e,sd_n,sd_u, or
+// cov_ee,cov_en,cov_eu,cov_nn,cov_nu,cov_uu, or quality (that of a GGA sentence).
 #pragma once
 #include <filesystem>
 #include <string>

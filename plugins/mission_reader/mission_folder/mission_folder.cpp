@@ -9,6 +9,7 @@
 #include "cambium/plugin.hpp"
 #include "file_payload.hpp"
 #include "gnss_file.hpp"
+#include "nmea_file.hpp"
 #include "payload_check.hpp"
 #include "payload_files.hpp"
 
@@ -58,10 +59,19 @@ class MissionFolder final : public MissionReader {
     mission.folder = folder;
     mission.name = name_of(folder);
     attach_payloads(mission, context);
-    if (const fs::path gnss = folder / "gnss.csv"; fs::exists(gnss))
-      mission.fixes = load_fixes(gnss, mission.warnings);
+    read_fixes(mission);
     mission.digest = mission_digest(mission);
     return mission;
+  }
+
+  static void read_fixes(Mission& mission) {
+    const fs::path table = mission.folder / "gnss.csv", log = mission.folder / "gnss.nmea";
+    if (fs::exists(table))
+      mission.fixes = load_fixes(table, mission.warnings);
+    else if (fs::exists(log))
+      mission.fixes = load_nmea(log, mission.warnings);
+    if (fs::exists(table) && fs::exists(log))
+      mission.warnings.push_back(log.string() + ": not read, because gnss.csv is there");
   }
 
   static bool is_graph(const fs::path& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mission folders through the real loader.
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <random>
 
@@ -328,6 +329,89 @@ TEST(MissionFolder, CovarianceColumnsAndOrderOfFixes) {
   ASSERT_EQ(m.fixes.size(), 2u);
   EXPECT_EQ(m.fixes[0].stamp, (Stamp{11, 7}));
   EXPECT_EQ(m.fixes[1].covariance, (Mat3() << 4, 1, 0.5, 1, 9, 0.25, 0.5, 0.25, 16).finished());
+}
+
+/// `$`, the text, `*` and its checksum.
+std::string nmea(const std::string& text) {
+  unsigned sum = 0;
+  for (const char c : text) sum ^= unsigned(static_cast<unsigned char>(c));
+  char end[8];
+  std::snprintf(end, sizeof end, "*%02X\r\n", sum);
+  return "$" + text + end;
+}
+
+/// The mission has no clouds, and warns of that; these are the others.
+std::vector<std::string> gnss_warnings(const Mission& mission) {
+  std::vector<std::string> out;
+  for (const std::string& warning : mission.warnings)
+    if (warning.find("/gnss.") != std::string::npos) out.push_back(warning);
+  return out;
+}
+
+Mission with_log(const std::string& log) {
+  MissionOnDisk disk;
+  write_file(disk.path() / "gnss.nmea", log);
+  return disk.read();
+}
+
+// The sentences that every description of the format shows.
+TEST(MissionFolder, NmeaSentencesBecomeFixes) {
+  const Mission m =
+      with_log("$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n"
+               "$GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W*6A\n");
+  EXPECT_TRUE(gnss_warnings(m).empty());
+  ASSERT_EQ(m.fixes.size(), 1u);
+  EXPECT_EQ(m.fixes[0].stamp, (Stamp{764426119, 0}));
+  EXPECT_NEAR(m.fixes[0].latitude, 48 + 7.038 / 60, 1e-12);
+  EXPECT_NEAR(m.fixes[0].longitude, 11 + 31.0 / 60, 1e-12);
+  EXPECT_NEAR(m.fixes[0].altitude, 545.4 + 46.9, 1e-12);  // above the ellipsoid
+  EXPECT_NEAR(m.fixes[0].covariance(0, 0), 2.7 * 2.7, 1e-12);
+}
+
+TEST(MissionFolder, NmeaOverMidnightAndSouthWest) {
+  const Mission m = with_log(
+      nmea("GNGGA,235959.75,3330.0,S,07030.0,W,4,20,0.5,10,M,-3.5,M,,") +
+      nmea("GNGST,235959.75,,,,,0.02,0.01,0.04") +
+      nmea("GNGGA,000000.25,3330.0,S,07030.0,W,4,20,0.5,10,M,-3.5,M,,") +
+      "2026-03-01 " + nmea("GNRMC,000000.25,A,3330.0,S,07030.0,W,0,0,010326,,"));
+  ASSERT_EQ(m.fixes.size(), 2u);
+  EXPECT_EQ(m.fixes[0].stamp, (Stamp{1772323199, 750'000'000}));
+  EXPECT_EQ(m.fixes[1].stamp, (Stamp{1772323200, 250'000'000}));
+  EXPECT_EQ(m.fixes[0].latitude, -33.5);
+  EXPECT_EQ(m.fixes[0].longitude, -70.5);
+  EXPECT_EQ(m.fixes[0].altitude, 6.5);
+  EXPECT_NEAR(m.fixes[0].covariance(0, 0), 1e-4, 1e-15);  // east is the second of GST
+}
+
+TEST(MissionFolder, NmeaSaysWhatItLeavesOut) {
+  const std::string date = nmea("GPRMC,120000,A,6100.0,N,02500.0,E,0,0,010326,,");
+  const std::string good = nmea("GPGGA,120001,6100.0,N,02500.0,E,1,8,1,150,M,18,M,,");
+  std::string damaged = good;
+  damaged[20] = '7';
+  const Mission m = with_log(date + good + damaged +
+                             nmea("GPGGA,120002,,,,,0,0,,,M,,M,,") +
+                             nmea("GPGGA,120003,6100.0,N,02500.0,E,1,8,1,150,M,,M,,") + "noise\n");
+  ASSERT_EQ(m.fixes.size(), 2u);
+  EXPECT_EQ(m.fixes[0].altitude, 168);
+  EXPECT_GT(m.fixes[1].covariance(2, 2), 3600);
+  const auto warnings = gnss_warnings(m);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("gnss.nmea:3: 1 sentences whose checksum"), std::string::npos);
+  EXPECT_NE(warnings[1].find("gnss.nmea:4: 1 GGA sentences tell no place"), std::string::npos);
+  EXPECT_NE(warnings[2].find("gnss.nmea:5: 1 GGA sentences have no geoid"), std::string::npos);
+  EXPECT_THROW(with_log(good), Error);  // no date
+}
+
+TEST(MissionFolder, QualityInPlaceOfSigmas) {
+  MissionOnDisk disk;
+  write_file(disk.path() / "gnss.csv",
+             "sec,nsec,lat,lon,alt,quality\n10,0,61,25,100,4\n11,0,61,25,100,0\n");
+  const Mission m = disk.read();
+  ASSERT_EQ(m.fixes.size(), 1u);
+  EXPECT_NEAR(m.fixes[0].covariance(0, 0), 4e-4, 1e-15);
+  EXPECT_EQ(gnss_warnings(m).size(), 1u);
+  write_file(disk.path() / "gnss.csv", "sec,nsec,lat,lon,alt,quality\n10,0,61,25,100,9\n");
+  EXPECT_NE(disk.refusal().find("gnss.csv:2: found quality 9"), std::string::npos);
 }
 
 /// The block ```name of docs/formats.md.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carry.hpp"
+#include "common/carry.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,22 +8,15 @@
 #include "cambium/fused.hpp"
 #include "cambium/geodesy.hpp"
 
-namespace similarity_4dof {
+namespace cambium::gnss {
 namespace {
-
-using cambium::Geodetic;
-using cambium::GeoReference;
-using cambium::SE3;
-using cambium::Vec3;
 
 Geodetic place(const GeoReference& g) { return {g.latitude, g.longitude, g.altitude}; }
 
 /// Tangent planes at two references differ by a rigid transform: p_a = T_a_b * p_b.
 SE3 between_references(const Geodetic& a, const Geodetic& b) {
-  const auto into_a = [&](const Vec3& p_b) {
-    return cambium::to_enu(a, cambium::from_enu(b, p_b));
-  };
-  cambium::Mat4 T = cambium::Mat4::Identity();
+  const auto into_a = [&](const Vec3& p_b) { return to_enu(a, from_enu(b, p_b)); };
+  Mat4 T = Mat4::Identity();
   const Vec3 origin = into_a(Vec3::Zero());
   constexpr double lever = 1000;  // [m], long against the rounding of degrees
   for (int axis = 0; axis < 3; ++axis)
@@ -75,20 +68,21 @@ double sigma_of_mean(const std::vector<Carried>& all, Sigma sigma) {
 
 }  // namespace
 
-cambium::GnssAlignment carry(const cambium::Atlas& atlas, const cambium::Island& island) {
+GnssAlignment or_carried(const GnssAlignment& refused, const Atlas& atlas, const Island& island) {
   std::vector<Carried> all;
   std::optional<GeoReference> first;
   for (const std::uint32_t m : island.missions) {
-    const cambium::MissionState& state = atlas.missions[m];
+    const MissionState& state = atlas.missions[m];
     const auto& own = state.mission->georeference;
     if (!own) continue;
     if (!first) first = own;
-    all.push_back({cambium::T_map_mission(state) * own->T_map_enu *
-                       between_references(place(*own), place(*first)),
-                   centre(*state.T_map_node), own->sigma_yaw, own->sigma_position});
+    all.push_back(
+        {T_map_mission(state) * own->T_map_enu * between_references(place(*own), place(*first)),
+         centre(*state.T_map_node), own->sigma_yaw, own->sigma_position});
   }
-  cambium::GnssAlignment out;
-  if (all.empty()) return out;
+  if (all.empty()) return refused;
+  GnssAlignment out;
+  out.reason = "taken from the missions' own GNSS lines: " + refused.reason;
   GeoReference g = *first;
   g.T_map_enu = mean(all);
   g.sigma_yaw = sigma_of_mean(all, [](const Carried& c) { return c.sigma_yaw; });
@@ -106,4 +100,4 @@ cambium::GnssAlignment carry(const cambium::Atlas& atlas, const cambium::Island&
   return out;
 }
 
-}  // namespace similarity_4dof
+}  // namespace cambium::gnss

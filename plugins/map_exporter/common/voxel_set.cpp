@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "voxel_set.hpp"
+#include "common/voxel_set.hpp"
 
 #include <cmath>
 
-namespace cloud {
+namespace cambium::map_export {
 namespace {
 
 constexpr std::int64_t half_range = 1 << 24;  // voxels from the origin; 21 bits hold their blocks
 
 }  // namespace
 
-bool VoxelSet::in_range(const cambium::Vec3& point) const {
+bool VoxelSet::in_range(const Vec3& point) const {
   // Also false for a point that is not finite.
   return point.cwiseAbs().maxCoeff() < voxel_size_ * double(half_range - 1) && point.allFinite();
 }
 
-bool VoxelSet::insert(const cambium::Vec3& point) {
+bool VoxelSet::insert(const Vec3& point) {
   constexpr std::int64_t mask = (1 << block_bits) - 1;
   std::uint64_t block = 0;
   std::size_t voxel = 0;
@@ -30,4 +30,4 @@ bool VoxelSet::insert(const cambium::Vec3& point) {
   return is_new;
 }
 
-}  // namespace cloud
+}  // namespace cambium::map_export

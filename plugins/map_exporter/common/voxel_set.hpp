@@ -7,7 +7,7 @@
 
 #include "cambium/se3.hpp"
 
-namespace cloud {
+namespace cambium::map_export {
 
 /// Blocks of 16^3 voxels, one bit each. A hash set of voxels would need ten times the memory.
 class VoxelSet {
@@ -16,8 +16,8 @@ class VoxelSet {
 
   /// True when no earlier point fell into this point's voxel. The point must be finite and less
   /// than 2^24 voxels from the origin.
-  bool insert(const cambium::Vec3& point);
-  bool in_range(const cambium::Vec3& point) const;
+  bool insert(const Vec3& point);
+  bool in_range(const Vec3& point) const;
 
  private:
   static constexpr int block_bits = 4;  // 16 voxels a side
@@ -25,4 +25,4 @@ class VoxelSet {
   std::unordered_map<std::uint64_t, std::bitset<1 << (3 * block_bits)>> blocks_;
 };
 
-}  // namespace cloud
+}  // namespace cambium::map_export

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Missions whose frame is not level, or is another kind of frame (z forward, z down).
+#pragma once
+#include <functional>
+#include <set>
+#include <string>
+
+#include "cambium/atlas.hpp"
+
+namespace cambium {
+
+/// The missions of the island whose vertical, as the map has it, is more than `limit` [rad] off
+/// that of most missions, weighted by their nodes; `warn` hears of each, with the angle. Where two
+/// parties are equally large, nobody knows who is wrong, and all of them are named. A mission's
+/// vertical is the mean over its nodes, so that a bent one counts as a whole.
+std::set<std::uint32_t> not_level(const Atlas& atlas, const Island& island, double limit,
+                                  const std::function<void(const std::string&)>& warn);
+
+}  // namespace cambium
