@@ -92,9 +92,11 @@ void Overlayer::finish(std::span<const Stem> query, std::uint32_t end, Overlay& 
 }
 
 double Overlayer::evidence(std::span<const Stem> query, std::span<const float> density,
-                           std::uint32_t end, std::uint32_t step, const Overlay& overlay) const {
+                           const Coverage& coverage, std::uint32_t end, std::uint32_t step,
+                           const Overlay& overlay) const {
   const Move move(overlay.T_reference_query);
   const double variance = limits_.sigma * limits_.sigma, share = limits_.detection;
+  const double missed = std::log(1 - share);
   double sum = 0;
   auto match = overlay.matches.begin();
   for (std::uint32_t q = 0; q < query.size(); q += step) {
@@ -103,27 +105,27 @@ double Overlayer::evidence(std::span<const Stem> query, std::span<const float> d
       const double here =
           std::exp(-0.5 * match->squared / variance) / (2 * std::numbers::pi * variance);
       sum += std::log(1 - share + share * here / density[match->reference]);
-    } else if (covered(move(query[q]), end)) {
-      sum += std::log(1 - share);
+    } else if (const auto [x, y] = move(query[q]); coverage.before(x, y, end)) {
+      sum += missed;
     }
   }
   return sum * step;
 }
 
-bool Overlayer::covered(const std::array<float, 2>& p, std::uint32_t end) const {
-  bool found = false;
-  grid_.within(p[0], p[1], float(limits_.cover),
-               [&](std::uint32_t r, float) { found = found || reference_[r].last < end; });
-  return found;
-}
-
+// A stem is in the map once for each stretch of path that saw it: only the first one counts.
 std::vector<float> densities(std::span<const Stem> stems, const StemGrid& grid) {
-  constexpr float around = 4.0f;
+  constexpr float around = 4.0f, same_stem = 0.6f;
+  std::vector<char> again(stems.size(), 0);
+  for (std::uint32_t i = 0; i < stems.size(); ++i)
+    if (!again[i])
+      grid.within(stems[i].x, stems[i].y, same_stem, [&](std::uint32_t k, float) {
+        if (k > i) again[k] = 1;
+      });
   std::vector<float> out;
   for (const Stem& s : stems) {
     int count = 0;
-    grid.within(s.x, s.y, around, [&](std::uint32_t, float) { ++count; });
-    out.push_back(float(count) / (std::numbers::pi_v<float> * around * around));
+    grid.within(s.x, s.y, around, [&](std::uint32_t i, float) { count += !again[i]; });
+    out.push_back(float(std::max(count, 1)) / (std::numbers::pi_v<float> * around * around));
   }
   return out;
 }
