@@ -146,15 +146,19 @@ std::optional<SE3> lift(const Overlay& overlay, std::span<const Stem> query,
   Vec3 plane(cambium::median(dz), 0, 0);  // z, roll, pitch
   // The scale falls from that of a wrong gravity to that of the bases (graduated non-convexity).
   for (double sigma = 3.2; sigma > 0.15; sigma *= 0.8) {
-    const double prior = std::pow(sigma_base / sigma_tilt, 2);
-    Eigen::Matrix3d H = Eigen::Vector3d(1e-9, prior, prior).asDiagonal();
+    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    double sum = 0;
     for (std::size_t i = 0; i < dz.size(); ++i) {
       const Eigen::Vector3d J(1, offset[i].y(), -offset[i].x());
-      const double r = (dz[i] - J.dot(plane)) / sigma, weight = 1 / (1 + r * r);
+      const double r = (dz[i] - J.dot(plane)) / sigma, weight = 1 / ((1 + r * r) * (1 + r * r));
       H += weight * J * J.transpose();
       b += weight * dz[i] * J;
+      sum += weight;
     }
+    // Neighbouring bases err alike: together they say as much about the tilt as one of them.
+    const double prior = sum * std::pow(sigma_base / sigma_tilt, 2);
+    H += Eigen::Vector3d(1e-9, prior, prior).asDiagonal();
     plane = H.ldlt().solve(b);
   }
   const Vec3 tilt(plane.y(), plane.z(), 0);

@@ -18,8 +18,8 @@ struct QueryLimits {
 std::vector<Stem> stems_around(const Place& place, std::size_t node, const QueryLimits& limits);
 
 struct Acceptance {
-  int min_matches = 12;    ///< stems that lie on one another
-  double min_score = 15;   ///< least log likelihood ratio
+  int min_matches = 16;    ///< stems that lie on one another
+  double min_score = 8.0;  ///< least log likelihood ratio
   double min_margin = 0.4;  ///< share of it by which any other place stays below it
   double distinct = 3.0;   ///< hypotheses nearer than this are the same place [m]
   double drift = 0.05;     ///< two passes of one place may lie so far apart, of the path between
@@ -36,7 +36,7 @@ struct Limits {
   int finalists = 20;         ///< hypotheses that are refined to the end
   double table_radius = 1.0;  ///< how far the map may have drifted from a node [m]
   int table_matches = 10;     ///< stems that two nodes must both have seen to refine on those
-  double sigma_tilt = 0.02;   ///< of gravity in the missions' frames [rad]
+  double sigma_tilt = 0.01;   ///< of gravity in the missions' frames [rad]
 };
 
 struct Found {
