@@ -33,7 +33,7 @@ std::vector<Pair> mutual_pairs(const std::vector<cambium::Tree>& target,
 
 struct Noise {
   double stem = 0.08;  ///< of a stem's horizontal position [m]
-  double base = 0.15;  ///< of the ground of a node, in which the bases of its stems err alike [m]
+  double base = 0.5;   ///< of the ground of a node, in which the bases of its stems err alike [m]
   double tilt = 0.01;  ///< of roll and pitch of the guess: gravity is known [rad]
 };
 
