@@ -136,8 +136,9 @@ int main(int argc, char** argv) try {
     if (set != "simulated") std::printf("missions_%s is not here: simulated\n", set.c_str());
     own = simulated_missions(1, *recognizer);
   }
-  const auto other = real ? tree_missions(set == "evo" ? "missions_venman" : "missions_evo", *recognizer)
-                          : simulated_missions(2, *recognizer);
+  const auto other =
+      real ? tree_missions(set == "evo" ? "missions_venman" : "missions_evo", *recognizer)
+           : simulated_missions(2, *recognizer);
   Result between, within;
   const double limit = real && set == "venman" ? 1.5 : 0.5;
   for (std::size_t r = 0; r < own.size(); ++r)

@@ -35,8 +35,7 @@ Coverage::Coverage(std::span<const Stem> stems, double radius) {
         const float dx = x_low_ + (float(column) + 0.5f) / per_metre_ - s.x,
                     dy = y_low_ + (float(row) + 0.5f) / per_metre_ - s.y;
         if (dx * dx + dy * dy > around * around) continue;
-        auto& earliest =
-            earliest_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+        auto& earliest = earliest_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
         earliest = std::min(earliest, s.last);
       }
   }

@@ -68,7 +68,8 @@ std::vector<Overlay> Reference::hypotheses(std::span<const Stem> stems, std::uin
   for (const Peak& peak : vote(own, index_, end, limits_.votes))
     overlays.push_back(overlayer.start(stems, peak.T_reference_query, end));
   const auto judge = [&](std::uint32_t step) {
-    for (Overlay& o : overlays) o.score = overlayer.evidence(stems, density_, coverage_, end, step, o);
+    for (Overlay& o : overlays)
+      o.score = overlayer.evidence(stems, density_, coverage_, end, step, o);
     std::stable_sort(overlays.begin(), overlays.end(),
                      [](const Overlay& a, const Overlay& b) { return a.score > b.score; });
   };

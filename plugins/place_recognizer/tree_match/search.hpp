@@ -18,11 +18,11 @@ struct QueryLimits {
 std::vector<Stem> stems_around(const Place& place, std::size_t node, const QueryLimits& limits);
 
 struct Acceptance {
-  int min_matches = 16;    ///< stems that lie on one another
-  double min_score = 8.0;  ///< least log likelihood ratio
+  int min_matches = 16;     ///< stems that lie on one another
+  double min_score = 8.0;   ///< least log likelihood ratio
   double min_margin = 0.4;  ///< share of it by which any other place stays below it
-  double distinct = 3.0;   ///< hypotheses nearer than this are the same place [m]
-  double drift = 0.05;     ///< two passes of one place may lie so far apart, of the path between
+  double distinct = 3.0;    ///< hypotheses nearer than this are the same place [m]
+  double drift = 0.05;      ///< two passes of one place may lie so far apart, of the path between
   double max_distance = 35.0;  ///< of two nodes: a turn that is slightly wrong grows with it [m]
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds stems by their place: square cells, row by row, so that a search reads a few runs of memory.
+// Finds stems by their place: square cells, row by row, so that a search reads a few runs of
+// memory.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -52,8 +52,10 @@ TriangleIndex::Gates TriangleIndex::gates_of(const Triangle& query, int a, int b
     low = std::clamp(low, 1, 255);
     gates[lane] = {std::uint8_t(low), std::uint8_t(std::clamp(high, low, 255) - low)};
   };
-  set(0, offset_in_cell(query.side[0] - max_side_, a), offset_in_cell(query.side[0] + max_side_, a));
-  set(1, offset_in_cell(query.side[1] - max_side_, b), offset_in_cell(query.side[1] + max_side_, b));
+  set(0, offset_in_cell(query.side[0] - max_side_, a),
+      offset_in_cell(query.side[0] + max_side_, a));
+  set(1, offset_in_cell(query.side[1] - max_side_, b),
+      offset_in_cell(query.side[1] + max_side_, b));
   for (std::size_t k = 0; k < 3; ++k)
     if (query.dbh[k] != 0) set(2 + k, query.dbh[k] - max_dbh_, query.dbh[k] + max_dbh_);
   for (std::size_t k = 0; k < 2; ++k)

@@ -95,8 +95,8 @@ TEST(TreeAlign, HeightsAreAlongTheStemsNotAlongTheRobot) {
   xi[4] = 0.25;
   const SE3 T_tilted_level = SE3::exp(xi);
   const auto level = stand(80);
-  const Alignment a = align(moved(T_tilted_level, lifted(level, 1.0)), moved(T_tilted_level, level),
-                            SE3{});
+  const Alignment a =
+      align(moved(T_tilted_level, lifted(level, 1.0)), moved(T_tilted_level, level), SE3{});
   const Mat3 R = T_tilted_level.rotation();
   const Mat3 information = R.transpose() * a.information.topLeftCorner<3, 3>() * R;
   EXPECT_LT(information(2, 2), 0.02) << "height is open";

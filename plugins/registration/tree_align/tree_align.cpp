@@ -45,7 +45,8 @@ class TreeAlign final : public Registration {
     const auto targets = usable(*target.payload.trees), sources = usable(*source.payload.trees);
     const Quat upright = q_upright_target(targets, sources, T_target_source_guess.q);
     const SE3 T_upright_target{upright, Vec3::Zero()};
-    Alignment out = fit(turned(upright, targets), sources, T_upright_target * T_target_source_guess);
+    Alignment out =
+        fit(turned(upright, targets), sources, T_upright_target * T_target_source_guess);
     out.T_target_source = T_upright_target.inverse() * out.T_target_source;
     Mat6 turn = Mat6::Identity();  // of the residual: its translation is in the target's axes
     turn.topLeftCorner<3, 3>() = T_upright_target.rotation();
@@ -78,7 +79,8 @@ class TreeAlign final : public Registration {
       const double lifted = bases.offset + best.T_target_source.t.z() - guess.t.z();
       known = bases.share >= min_height_share_ && std::abs(lifted) <= max_height_change_;
       if (!known) std::fill(bases.weights.begin(), bases.weights.end(), 0.0);
-      best = step(target, source, pairs, bases.weights, best.T_target_source, noise_, correct_tilt_);
+      best =
+          step(target, source, pairs, bases.weights, best.T_target_source, noise_, correct_tilt_);
       if (!known) best.T_target_source.t.z() = guess.t.z();
     }
     Alignment out = judged(best, pairs.size(), std::min(target.size(), source.size()));
