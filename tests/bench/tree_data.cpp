@@ -6,6 +6,8 @@
 
 #include "cambium/files.hpp"
 #include "cambium/path.hpp"
+#include "simulate/simulate.hpp"
+#include "simulate/spec_file.hpp"
 
 namespace cambium::bench {
 namespace {
@@ -17,12 +19,8 @@ void describe(TreeMission& m, const PlaceRecognizer& recognizer) {
   m.fingerprints = recognizer.describe({atlas, 0}, *context);
 }
 
-}  // namespace
-
-std::vector<TreeMission> tree_missions(const std::string& archive,
+std::vector<TreeMission> read_missions(const std::filesystem::path& data,
                                        const PlaceRecognizer& recognizer) {
-  const auto data = testing::real_data(archive);
-  if (data.empty()) return {};
   std::vector<std::filesystem::path> folders;
   for (const auto& entry : std::filesystem::directory_iterator(data))
     if (entry.is_directory()) folders.push_back(entry.path());
@@ -42,6 +40,38 @@ std::vector<TreeMission> tree_missions(const std::string& archive,
   return out;
 }
 
+const std::string stand = R"(version: 1
+stand: {size: [260, 120]}
+sensor: {clouds: false}
+trees: {enabled: true}
+odometry: {drift: 1}
+path: {kind: line, size: [200, 0], spacing: 2}
+missions:
+  - {name: mission_a}
+  - {name: mission_b, path: {offset: 7, reversed: true}}
+  - {name: mission_c, path: {offset: 12}}
+  - {name: mission_d, path: {offset: 17, reversed: true}}
+  - {name: mission_e, path: {offset: 22}}
+)";
+
+}  // namespace
+
+std::vector<TreeMission> tree_missions(const std::string& archive,
+                                       const PlaceRecognizer& recognizer) {
+  const auto data = testing::real_data(archive);
+  return data.empty() ? std::vector<TreeMission>{} : read_missions(data, recognizer);
+}
+
+std::vector<TreeMission> simulated_missions(int seed, const PlaceRecognizer& recognizer) {
+  const auto folder = std::make_shared<testing::TemporaryFolder>();
+  const std::string text = stand + "seed: " + std::to_string(seed) + "\n";
+  const auto spec = simulate::parse_spec(text, "stand");
+  simulate::simulate(spec, text, folder->path(), *testing::make_context());
+  auto out = read_missions(folder->path(), recognizer);
+  for (TreeMission& m : out) m.files = folder;
+  return out;
+}
+
 std::vector<TreeMission> pieces(const TreeMission& whole, std::size_t nodes,
                                 const PlaceRecognizer& recognizer) {
   std::vector<TreeMission> out;
@@ -49,6 +79,7 @@ std::vector<TreeMission> pieces(const TreeMission& whole, std::size_t nodes,
   for (std::size_t begin = 0; begin + nodes <= all.size(); begin += nodes) {
     const auto first = std::ptrdiff_t(begin), last = std::ptrdiff_t(begin + nodes);
     TreeMission m;
+    m.files = whole.files;
     m.mission.name = whole.mission.name;
     m.mission.nodes.assign(all.begin() + first, all.begin() + last);
     m.truth.assign(whole.truth.begin() + first, whole.truth.begin() + last);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Real tree tables with true poses, for bench_trees.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,15 @@ struct TreeMission {
   std::vector<SE3> truth;    ///< T_world_node, one world for the missions of a set
   std::vector<double> path;  ///< distance travelled at each node [m]
   Fingerprints fingerprints;
+  std::shared_ptr<const void> files;  ///< keeps a temporary folder
 };
 
 /// The missions of an archive, described. Empty when the data is not there.
 std::vector<TreeMission> tree_missions(const std::string& archive,
                                        const PlaceRecognizer& recognizer);
+/// A made-up stand of 260 x 120 m and five missions through it, parallel at 0, 7, 12, 17 and 22 m,
+/// every other one the other way round. `seed` names the forest.
+std::vector<TreeMission> simulated_missions(int seed, const PlaceRecognizer& recognizer);
 /// The mission cut into missions of `nodes` nodes, each described for itself.
 std::vector<TreeMission> pieces(const TreeMission& whole, std::size_t nodes,
                                 const PlaceRecognizer& recognizer);

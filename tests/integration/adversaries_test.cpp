@@ -68,6 +68,11 @@ TEST(Adversary, APlantationLatticeTiesNothing) {
   expect_two_islands(fuse("plantation_lattice", pipeline("fuse_scans.yaml")));
 }
 
+TEST(Adversary, TreeTablesOfALatticeOrAClearingTieNothing) {
+  for (const char* spec : {"plantation_lattice", "empty_clearing"})
+    expect_two_islands(fuse(spec, pipeline("fuse_trees.yaml")));
+}
+
 TEST(Adversary, AnEmptyClearingTiesNothing) {
   expect_two_islands(fuse("empty_clearing"));
   expect_two_islands(fuse("empty_clearing", pipeline("fuse_scans.yaml")));

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "alignment.hpp"
 
-#include <Eigen/Cholesky>
 #include <numbers>
 
 #include "cambium/fit.hpp"
-#include "cambium/statistics.hpp"
 
 namespace tree_match {
 namespace {
 
-using cambium::Quat;
 using cambium::SE3;
 using cambium::Vec3;
 
@@ -40,7 +37,6 @@ bool alike(const Stem& a, const Stem& b, double max_dbh_difference) {
 }
 
 constexpr std::size_t fewest_to_fit = 3;
-constexpr double sigma_base = 0.3;  // of the difference of two bases [m]
 
 }  // namespace
 
@@ -92,9 +88,11 @@ void Overlayer::finish(std::span<const Stem> query, std::uint32_t end, Overlay& 
 }
 
 double Overlayer::evidence(std::span<const Stem> query, std::span<const float> density,
-                           std::uint32_t end, std::uint32_t step, const Overlay& overlay) const {
+                           const Coverage& coverage, std::uint32_t end, std::uint32_t step,
+                           const Overlay& overlay) const {
   const Move move(overlay.T_reference_query);
   const double variance = limits_.sigma * limits_.sigma, share = limits_.detection;
+  const double missed = std::log(1 - share);
   double sum = 0;
   auto match = overlay.matches.begin();
   for (std::uint32_t q = 0; q < query.size(); q += step) {
@@ -103,62 +101,29 @@ double Overlayer::evidence(std::span<const Stem> query, std::span<const float> d
       const double here =
           std::exp(-0.5 * match->squared / variance) / (2 * std::numbers::pi * variance);
       sum += std::log(1 - share + share * here / density[match->reference]);
-    } else if (covered(move(query[q]), end)) {
-      sum += std::log(1 - share);
+    } else if (const auto [x, y] = move(query[q]); coverage.before(x, y, end)) {
+      sum += missed;
     }
   }
   return sum * step;
 }
 
-bool Overlayer::covered(const std::array<float, 2>& p, std::uint32_t end) const {
-  bool found = false;
-  grid_.within(p[0], p[1], float(limits_.cover),
-               [&](std::uint32_t r, float) { found = found || reference_[r].last < end; });
-  return found;
-}
-
+// A stem is in the map once for each stretch of path that saw it: only the first one counts.
 std::vector<float> densities(std::span<const Stem> stems, const StemGrid& grid) {
-  constexpr float around = 4.0f;
+  constexpr float around = 4.0f, same_stem = 0.6f;
+  std::vector<char> again(stems.size(), 0);
+  for (std::uint32_t i = 0; i < stems.size(); ++i)
+    if (!again[i])
+      grid.within(stems[i].x, stems[i].y, same_stem, [&](std::uint32_t k, float) {
+        if (k > i) again[k] = 1;
+      });
   std::vector<float> out;
   for (const Stem& s : stems) {
     int count = 0;
-    grid.within(s.x, s.y, around, [&](std::uint32_t, float) { ++count; });
-    out.push_back(float(count) / (std::numbers::pi_v<float> * around * around));
+    grid.within(s.x, s.y, around, [&](std::uint32_t i, float) { count += !again[i]; });
+    out.push_back(float(std::max(count, 1)) / (std::numbers::pi_v<float> * around * around));
   }
   return out;
-}
-
-std::optional<SE3> lift(const Overlay& overlay, std::span<const Stem> query,
-                        std::span<const Stem> reference, double sigma_tilt) {
-  const auto [x, y, yaw] = overlay.T_reference_query;
-  const Quat turned = SE3::from_yaw(yaw).q;
-  std::vector<Vec3> offset;  // from the query's node in the reference's axes
-  std::vector<double> dz;
-  for (const Match& m : overlay.matches) {
-    const Stem &q = query[m.query], &r = reference[m.reference];
-    if (std::isnan(q.z) || std::isnan(r.z)) continue;
-    offset.push_back(turned * Vec3(q.x, q.y, 0));
-    dz.push_back(double(r.z) - double(q.z));
-  }
-  if (dz.size() < fewest_to_fit) return std::nullopt;
-  Vec3 plane(cambium::median(dz), 0, 0);  // z, roll, pitch
-  // The scale falls from that of a wrong gravity to that of the bases (graduated non-convexity).
-  for (double sigma = 3.2; sigma > 0.15; sigma *= 0.8) {
-    const double prior = std::pow(sigma_base / sigma_tilt, 2);
-    Eigen::Matrix3d H = Eigen::Vector3d(1e-9, prior, prior).asDiagonal();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < dz.size(); ++i) {
-      const Eigen::Vector3d J(1, offset[i].y(), -offset[i].x());
-      const double r = (dz[i] - J.dot(plane)) / sigma, weight = 1 / (1 + r * r);
-      H += weight * J * J.transpose();
-      b += weight * dz[i] * J;
-    }
-    plane = H.ldlt().solve(b);
-  }
-  const Vec3 tilt(plane.y(), plane.z(), 0);
-  const double angle = tilt.norm();
-  const Quat tilted(Eigen::AngleAxisd(angle, angle > 0 ? Vec3(tilt / angle) : Vec3::UnitX()));
-  return SE3{tilted * turned, Vec3(x, y, plane.x())};
 }
 
 }  // namespace tree_match

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cambium/se3.hpp"
+#include "coverage.hpp"
 #include "stem_grid.hpp"
 #include "voting.hpp"
 
@@ -29,10 +30,10 @@ struct AlignmentLimits {
   double max_dbh_difference = 0.15;  ///< [m]
   double sigma = 0.2;                ///< of the distance of two matched stems, per axis [m]
   double cover = 3.0;                ///< the reference has seen what lies so near to a stem [m]
-  double detection = 0.3;            ///< share of a map's stems that another map has, too
+  double detection = 0.5;            ///< share of a map's stems that another map has, too
 };
 
-/// Stems per square metre around each stem.
+/// Different stems per square metre around each stem.
 std::vector<float> densities(std::span<const Stem> stems, const StemGrid& grid);
 
 /// The stems that fit the reference's, of all that were last seen before node `end`.
@@ -50,15 +51,15 @@ class Overlayer {
   /// that is matched counts by the density of the reference's stems around it, so that little is
   /// won in a thicket; one that is not matched, where the reference has stems, counts against it.
   /// Looks at every `step`-th stem only.
-  double evidence(std::span<const Stem> query, std::span<const float> density, std::uint32_t end,
-                  std::uint32_t step, const Overlay& overlay) const;
+  double evidence(std::span<const Stem> query, std::span<const float> density,
+                  const Coverage& coverage, std::uint32_t end, std::uint32_t step,
+                  const Overlay& overlay) const;
 
  private:
   static constexpr std::uint32_t no_match = ~std::uint32_t(0);
 
   void match(std::span<const Stem> query, double radius, std::uint32_t end, Overlay& overlay);
   void refine(std::span<const Stem> query, double radius, std::uint32_t end, Overlay& overlay);
-  bool covered(const std::array<float, 2>& p, std::uint32_t end) const;
 
   std::span<const Stem> reference_;
   const StemGrid& grid_;

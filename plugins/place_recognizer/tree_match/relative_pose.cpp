@@ -28,9 +28,9 @@ SE3 Reference::relative_pose(const Overlay& overlay, std::span<const Stem> stems
   const bool good =
       own.matches.size() >= std::size_t(limits_.table_matches) && moved < 2 * limits_.table_radius;
   if (good) planar = refined;
-  std::optional<SE3> T_r_upright;
-  if (good) T_r_upright = lift(own, from, to, limits_.sigma_tilt);
-  if (!T_r_upright && (T_r_upright = lift(overlay, stems, place_.stems, limits_.sigma_tilt))) {
+  // Heights are those of the maps, which many nodes agree on; those of one node may all be wrong.
+  std::optional<SE3> T_r_upright = lift(overlay, stems, place_.stems, limits_.sigma_tilt);
+  if (T_r_upright) {
     T_r_upright->q = SE3::from_yaw(planar.yaw - overlay.T_reference_query.yaw).q * T_r_upright->q;
     T_r_upright->t = Vec3(planar.x, planar.y, T_r_upright->t.z() - at.z());
   }

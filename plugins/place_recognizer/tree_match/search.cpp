@@ -13,6 +13,7 @@ Reference::Reference(Place place, const Limits& limits)
       place_(std::move(place)),
       grid_(place_.stems),
       density_(densities(place_.stems, grid_)),
+      coverage_(place_.stems, limits.alignment.cover),
       index_(std::move(place_.triangles), limits.index) {}
 
 // The nearest node that saw at least half as many of the matched stems as any node did: between it
@@ -40,12 +41,6 @@ std::size_t Reference::nearest_node(const Overlay& overlay, std::uint32_t end) c
   return best;
 }
 
-// The density counts a stem once a pass, so where passes overlap the ratio is too low for right
-// answers with a hundred matches; the credit makes up for it.
-double Reference::confidence(const Overlay& overlay) const {
-  return overlay.score + limits_.acceptance.match_credit * double(overlay.matches.size());
-}
-
 // Wrong answers find many matches, too; what gives them away is that others find as many.
 double Reference::rival(const std::vector<Overlay>& overlays, std::size_t node,
                         std::uint32_t end) const {
@@ -59,20 +54,22 @@ double Reference::rival(const std::vector<Overlay>& overlays, std::size_t node,
     const double turned = std::remainder(other.yaw - best.yaw, 2 * std::numbers::pi);
     // Another pass along the same place is no rival: drift has moved its stems in the map.
     const double same = limits_.acceptance.distinct + limits_.acceptance.drift * between;
-    if (distance > same || std::abs(turned) > same_yaw) highest = std::max(highest, confidence(o));
+    if (distance > same || std::abs(turned) > same_yaw) highest = std::max(highest, o.score);
   }
   return highest;
 }
 
 std::vector<Overlay> Reference::hypotheses(std::span<const Stem> stems, std::uint32_t end) const {
   const StemGrid grid(stems);
-  const auto own = triangles(stems, grid, limits_.triangles);
+  std::vector<Triangle> own = triangles(stems, grid, limits_.triangles);
+  index_.sort(own);  // so that the index is walked through once
   Overlayer overlayer(place_.stems, grid_, limits_.alignment);
   std::vector<Overlay> overlays;
   for (const Peak& peak : vote(own, index_, end, limits_.votes))
     overlays.push_back(overlayer.start(stems, peak.T_reference_query, end));
   const auto judge = [&](std::uint32_t step) {
-    for (Overlay& o : overlays) o.score = overlayer.evidence(stems, density_, end, step, o);
+    for (Overlay& o : overlays)
+      o.score = overlayer.evidence(stems, density_, coverage_, end, step, o);
     std::stable_sort(overlays.begin(), overlays.end(),
                      [](const Overlay& a, const Overlay& b) { return a.score > b.score; });
   };
@@ -90,14 +87,13 @@ std::optional<Found> Reference::locate(const Place& query, std::size_t node,
   const Acceptance& accept = limits_.acceptance;
   if (overlays.empty()) return std::nullopt;
   const Overlay& best = overlays.front();
-  const double sure = confidence(best);
-  if (best.matches.size() < std::size_t(accept.min_matches) || sure < accept.min_score)
+  if (best.matches.size() < std::size_t(accept.min_matches) || best.score < accept.min_score)
     return std::nullopt;
   const std::size_t r = nearest_node(best, end);
-  if (rival(overlays, r, end) > (1 - accept.min_margin) * sure) return std::nullopt;
+  if (rival(overlays, r, end) > (1 - accept.min_margin) * best.score) return std::nullopt;
   const SE3 T_reference_query = relative_pose(best, stems, query, node, r);
   if (T_reference_query.t.head<2>().norm() > accept.max_distance) return std::nullopt;
-  return Found{r, T_reference_query, sure};
+  return Found{r, T_reference_query, best.score};
 }
 
 }  // namespace tree_match

@@ -9,22 +9,20 @@
 namespace tree_match {
 
 struct QueryLimits {
-  double window = 15.0;  ///< stems seen from nodes up to so far along the path [m]
-  double range = 40.0;   ///< and at most so far from the query's node [m]
-  int max_stems = 150;   ///< the nearest ones
+  double window = 20.0;  ///< stems seen from nodes up to so far along the path [m]
+  double range = 50.0;   ///< and at most so far from the query's node [m]
+  int max_stems = 250;   ///< the nearest ones
 };
 
 /// The stems around a node, from the node, along the mission's axes.
 std::vector<Stem> stems_around(const Place& place, std::size_t node, const QueryLimits& limits);
 
-/// Confidence: the log likelihood ratio plus match_credit for each match.
 struct Acceptance {
-  int min_matches = 24;       ///< stems that lie on one another
-  double match_credit = 0.5;  ///< added to the log likelihood ratio for each match
-  double min_score = 10.0;    ///< least confidence
-  double min_margin = 0.4;    ///< share of the confidence by which any other place stays below it
-  double distinct = 3.0;      ///< hypotheses nearer than this are the same place [m]
-  double drift = 0.05;        ///< two passes of one place may lie so far apart, of the path between
+  int min_matches = 16;     ///< stems that lie on one another
+  double min_score = 8.0;   ///< least log likelihood ratio
+  double min_margin = 0.4;  ///< share of it by which any other place stays below it
+  double distinct = 3.0;    ///< hypotheses nearer than this are the same place [m]
+  double drift = 0.05;      ///< two passes of one place may lie so far apart, of the path between
   double max_distance = 35.0;  ///< of two nodes: a turn that is slightly wrong grows with it [m]
 };
 
@@ -38,13 +36,13 @@ struct Limits {
   int finalists = 20;         ///< hypotheses that are refined to the end
   double table_radius = 1.0;  ///< how far the map may have drifted from a node [m]
   int table_matches = 10;     ///< stems that two nodes must both have seen to refine on those
-  double sigma_tilt = 0.02;   ///< of gravity in the missions' frames [rad]
+  double sigma_tilt = 0.01;   ///< of gravity in the missions' frames [rad]
 };
 
 struct Found {
   std::size_t reference = 0;  ///< node
   cambium::SE3 T_reference_query;
-  double score = 0;  ///< confidence
+  double score = 0;  ///< log likelihood ratio
 };
 
 /// A mission in which places are looked for. One instance serves all threads.
@@ -59,7 +57,6 @@ class Reference {
  private:
   std::vector<Overlay> hypotheses(std::span<const Stem> stems, std::uint32_t end) const;
   std::size_t nearest_node(const Overlay& overlay, std::uint32_t end) const;
-  double confidence(const Overlay& overlay) const;
   double rival(const std::vector<Overlay>& overlays, std::size_t node, std::uint32_t end) const;
   cambium::SE3 relative_pose(const Overlay& overlay, std::span<const Stem> stems,
                              const Place& query, std::size_t q, std::size_t r) const;
@@ -68,6 +65,7 @@ class Reference {
   Place place_;
   StemGrid grid_;
   std::vector<float> density_;
+  Coverage coverage_;
   TriangleIndex index_;
 };
 

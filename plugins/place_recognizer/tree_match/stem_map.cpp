@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "cambium/path.hpp"
+#include "cambium/statistics.hpp"
 
 namespace tree_match {
 namespace {
@@ -18,8 +19,8 @@ struct Track {
   Vec3 recent = Vec3::Zero();  ///< where it was seen lately, from the first node: follows the drift
   double path = 0;             ///< travelled at its last sighting [m]
   double begin = 0;            ///< travelled at its first sighting [m]
-  Vec3 sum = Vec3::Zero();     ///< of weighted positions; of z where it is known
-  double weight = 0, z_weight = 0, dbh_sum = 0, dbh_weight = 0;
+  double x_sum = 0, y_sum = 0, weight = 0, dbh_sum = 0, dbh_weight = 0;
+  std::vector<double> heights;  ///< where they are known
   std::uint32_t first = 0, last = 0, sightings = 0;
 };
 
@@ -28,12 +29,10 @@ constexpr double recent_share = 0.4;
 void see(Track& track, const Detection& d, const Vec3& p, double path) {
   track.recent += (track.sightings == 0 ? 1.0 : recent_share) * (p - track.recent);
   const double w = d.weight;
-  track.sum.head<2>() += w * p.head<2>();
+  track.x_sum += w * p.x();
+  track.y_sum += w * p.y();
   track.weight += w;
-  if (std::isfinite(p.z())) {
-    track.sum.z() += w * p.z();
-    track.z_weight += w;
-  }
+  if (std::isfinite(p.z())) track.heights.push_back(p.z());
   if (d.stem.dbh > 0) {
     track.dbh_sum += w * d.stem.dbh;
     track.dbh_weight += w;
@@ -47,10 +46,10 @@ void see(Track& track, const Detection& d, const Vec3& p, double path) {
 }
 
 Stem finished(const Track& t) {
-  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-  return {float(t.sum.x() / t.weight),
-          float(t.sum.y() / t.weight),
-          t.z_weight > 0 ? float(t.sum.z() / t.z_weight) : unknown,
+  // The median: some nodes put the same base metres off. NaN when no height is known.
+  return {float(t.x_sum / t.weight),
+          float(t.y_sum / t.weight),
+          float(cambium::median(t.heights)),
           t.dbh_weight > 0 ? float(t.dbh_sum / t.dbh_weight) : 0.0f,
           t.first,
           t.last,

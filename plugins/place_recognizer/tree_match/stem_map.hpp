@@ -23,7 +23,7 @@ struct MapLimits {
   int min_sightings = 4;    ///< stems seen by fewer nodes are taken for false detections
   double revisit = 20.0;    ///< a stem not seen for so long along the path is closed [m]
   double max_track = 10.0;  ///< a stem in view for so long along the path is another one then [m]
-  double max_clearance_change = 1.0;  ///< nodes whose ground is further off lose their heights [m]
+  double max_clearance_change = 2.0;  ///< nodes whose ground is further off lose their heights [m]
   double max_range = 40.0;            ///< detections farther from their node are not used [m]
 };
 

@@ -91,6 +91,14 @@ TEST(TreeMatch, AnotherForestIsRefused) {
           .empty());
 }
 
+TEST(TreeMatch, NoPairIsFartherApartThanAllowed) {
+  const auto world = forest(1);
+  const Mission a = walk("a", world, line(-80, 80, 0, 0)),
+                b = walk("b", world, line(80, -80, 20, std::numbers::pi));
+  EXPECT_FALSE(match(b, a).empty());
+  EXPECT_TRUE(match(b, a, "{max_distance: 15}").empty());
+}
+
 TEST(TreeMatch, ALatticeIsRefused) {
   std::vector<Tree> world;
   for (int x = -30; x <= 30; ++x)

@@ -93,6 +93,8 @@ void TreeMatch::shape_params(ParamVisitor& v) {
 }
 
 void TreeMatch::pose_params(ParamVisitor& v) {
+  v("max_side_difference", limits_.index.max_side_difference, "Of the sides of two triangles",
+    above(0.0, "m"));
   v("max_dbh_difference", limits_.index.max_dbh_difference, "Of the stems of two triangles",
     above(0.0, "m"));
   v("max_height_difference", limits_.index.max_height_difference,
@@ -124,10 +126,7 @@ void TreeMatch::params(ParamVisitor& v) {
   pose_params(v);
   auto& accept = limits_.acceptance;
   v("min_matches", accept.min_matches, "Fewer matched stems are no place", between(3, 1000));
-  v("match_credit", accept.match_credit,
-    "Added to the logarithm of the likelihood ratio for each matched stem", at_least(0.0));
-  v("min_score", accept.min_score, "Least logarithm of the likelihood ratio, with the credit",
-    at_least(0.0));
+  v("min_score", accept.min_score, "Least logarithm of the likelihood ratio", at_least(0.0));
   v("min_margin", accept.min_margin,
     "Share of the score by which every other place must stay below it", between(0.0, 1.0));
   v("distinct", accept.distinct, "Hypotheses nearer than this are the same place", above(0.0, "m"));

@@ -68,7 +68,9 @@ std::vector<std::uint64_t> combinations(std::span<const Stem> stems, const StemG
   return out;
 }
 
-float distance(const Stem& a, const Stem& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+float distance(const Stem& a, const Stem& b) {
+  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+}
 
 std::uint8_t centimetres(float dbh) {
   return std::uint8_t(std::clamp(std::lround(100 * dbh), 0L, 255L));

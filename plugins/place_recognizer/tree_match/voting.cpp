@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "voting.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 namespace tree_match {
@@ -30,57 +31,34 @@ class Circle {
 struct Vote {
   float x, y;
   std::uint16_t heading;  ///< 2 pi / 65536 a unit
-  std::uint32_t slot;     ///< of its bin
+  std::uint16_t slot;     ///< of its bin among the counters
 };
 
-/// Counts votes by bin: open addressing, so that counting touches little memory.
-class Bins {
+/// Counts votes in few enough counters to stay in the cache. Bins may share one, so that these
+/// counts only say where it is worth looking.
+class Counters {
  public:
-  Bins() : slots_(1 << 12, no_slot) {}
+  Counters() : counts_(1 << 16, 0) {}
 
-  std::uint32_t count(std::uint64_t key) {
-    if (2 * keys_.size() >= slots_.size()) grow();
-    std::uint32_t& slot = slots_[place(key)];
-    if (slot == no_slot) {
-      slot = std::uint32_t(keys_.size());
-      keys_.push_back(key);
-      counts_.push_back(0);
-    }
-    ++counts_[slot];
+  std::uint16_t count(std::uint64_t bin) {
+    const auto slot = std::uint16_t((bin * 0x9E3779B97F4A7C15u) >> 48);
+    counts_[slot] = std::uint16_t(counts_[slot] + (counts_[slot] < 0xFFFF));
     return slot;
   }
+  std::uint16_t at(std::uint16_t slot) const { return counts_[slot]; }
 
-  /// The fullest first; of two equally full ones, the lower key.
-  std::vector<std::uint32_t> fullest(std::size_t count) const {
-    std::vector<std::uint32_t> order(keys_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = std::uint32_t(i);
-    count = std::min(count, order.size());
-    std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(count), order.end(),
-                      [&](std::uint32_t a, std::uint32_t b) {
-                        return counts_[a] != counts_[b] ? counts_[a] > counts_[b]
-                                                        : keys_[a] < keys_[b];
-                      });
-    order.resize(count);
-    return order;
+  /// The highest count that at least `slots` counters reach; 1 when that many were never used.
+  std::uint16_t reached_by(std::size_t slots) const {
+    std::vector<std::size_t> with(0x10000, 0);
+    for (const std::uint16_t c : counts_) ++with[c];
+    std::size_t sum = 0;
+    for (std::size_t c = with.size() - 1; c > 1; --c)
+      if ((sum += with[c]) >= slots) return std::uint16_t(c);
+    return 1;
   }
-  std::size_t size() const { return keys_.size(); }
 
  private:
-  static constexpr std::uint32_t no_slot = ~std::uint32_t(0);
-
-  std::size_t place(std::uint64_t key) const {
-    std::size_t at = std::size_t((key * 0x9E3779B97F4A7C15u) >> 32) & (slots_.size() - 1);
-    while (slots_[at] != no_slot && keys_[slots_[at]] != key) at = (at + 1) & (slots_.size() - 1);
-    return at;
-  }
-  void grow() {
-    slots_.assign(2 * slots_.size(), no_slot);
-    for (std::size_t i = 0; i < keys_.size(); ++i) slots_[place(keys_[i])] = std::uint32_t(i);
-  }
-
-  std::vector<std::uint32_t> slots_;
-  std::vector<std::uint64_t> keys_;
-  std::vector<std::uint32_t> counts_;
+  std::vector<std::uint16_t> counts_;
 };
 
 /// Bins of x and y of 24 bits each, of the heading 16 bits.
@@ -93,16 +71,16 @@ std::uint64_t bin_of(float x, float y, std::uint16_t heading, const VoteLimits& 
 }
 
 std::vector<Vote> cast(const std::vector<Triangle>& query, const TriangleIndex& reference,
-                       std::uint32_t end, const VoteLimits& limits, Bins& bins) {
+                       std::uint32_t end, const VoteLimits& limits, std::uint32_t sectors,
+                       Counters& counters) {
   static const Circle circle;
-  const auto sectors = std::uint32_t(std::max(1.0, std::round(turn / limits.bin_yaw)));
   std::vector<Vote> votes;
   for (const Triangle& q : query)
     reference.hits(q, end, [&](const Triangle& r) {
       const auto heading = std::uint16_t(r.heading - q.heading);
       const auto [c, s] = circle[heading];
       const float x = r.x - c * q.x + s * q.y, y = r.y - s * q.x - c * q.y;
-      votes.push_back({x, y, heading, bins.count(bin_of(x, y, heading, limits, sectors))});
+      votes.push_back({x, y, heading, counters.count(bin_of(x, y, heading, limits, sectors))});
     });
   return votes;
 }
@@ -129,16 +107,26 @@ struct Sum {
 
 std::vector<Peak> vote(const std::vector<Triangle>& query, const TriangleIndex& reference,
                        std::uint32_t end, const VoteLimits& limits) {
-  Bins bins;
-  const std::vector<Vote> votes = cast(query, reference, end, limits, bins);
-  const auto fullest = bins.fullest(std::size_t(limits.bins));
-  std::vector<std::uint8_t> rank(bins.size(), 255);
-  std::vector<Sum> sums(fullest.size());
-  for (std::size_t i = 0; i < fullest.size(); ++i) rank[fullest[i]] = std::uint8_t(i);
-  for (const Vote& v : votes)
-    if (rank[v.slot] != 255) sums[rank[v.slot]].add(v);
+  const auto sectors = std::uint32_t(std::max(1.0, std::round(turn / limits.bin_yaw)));
+  Counters counters;
+  const std::vector<Vote> votes = cast(query, reference, end, limits, sectors, counters);
+  // Twice as many counters as bins are wanted: some are full by chance.
+  const std::uint16_t least = counters.reached_by(2 * std::size_t(limits.bins));
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> by_bin;
+  for (std::uint32_t i = 0; i < votes.size(); ++i)
+    if (const Vote& v = votes[i]; counters.at(v.slot) >= least)
+      by_bin.emplace_back(bin_of(v.x, v.y, v.heading, limits, sectors), i);
+  std::sort(by_bin.begin(), by_bin.end());
   std::vector<Peak> peaks;
-  for (const Sum& sum : sums) peaks.push_back(sum.mean());
+  for (auto from = by_bin.begin(); from != by_bin.end();) {
+    Sum sum;
+    const std::uint64_t bin = from->first;
+    for (; from != by_bin.end() && from->first == bin; ++from) sum.add(votes[from->second]);
+    peaks.push_back(sum.mean());
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Peak& a, const Peak& b) { return a.votes > b.votes; });
+  peaks.resize(std::min(peaks.size(), std::size_t(limits.bins)));
   return peaks;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace tree_align {
 namespace {
@@ -68,20 +69,22 @@ std::vector<Pair> mutual_pairs(const std::vector<Tree>& target, const std::vecto
 // J = [I, -R [p]x] in pose_graph.hpp's tangent: translation in the target's axes,
 // rotation in the source's.
 Fit step(const std::vector<Tree>& target, const std::vector<Tree>& source,
-         const std::vector<Pair>& pairs, const SE3& T, const Noise& noise, bool correct_tilt) {
+         const std::vector<Pair>& pairs, const std::vector<double>& height_weights, const SE3& T,
+         const Noise& noise, bool correct_tilt) {
   const Mat3 R = T.rotation();
   Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
-  const double n = double(pairs.size());
+  const double n = double(pairs.size()),
+               heights = std::accumulate(height_weights.begin(), height_weights.end(), 0.0);
   double squares = 0;
-  for (const Pair& pair : pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Pair& pair = pairs[i];
     const Vec3 r = target[pair.target].base - T * source[pair.source].base;
-    const double plane = r.head<2>().squaredNorm(), height = r.z() * r.z();
+    const double plane = r.head<2>().squaredNorm();
     squares += plane;
-    // All bases of a node share the error of its ground: together they count as one.
-    const double sigma_z = noise.base * std::sqrt(n);
     const double w_plane = 1 / (noise.stem * noise.stem + plane);
-    const double w_z = 1 / (sigma_z * sigma_z + height);
+    // The bases of a node share the error of its ground: together they count as one.
+    const double w_z = heights > 0 ? height_weights[i] / heights / (noise.base * noise.base) : 0;
     const Vec3 weight(w_plane, w_plane, w_z);
     Eigen::Matrix<double, 3, 6> J;
     J << Mat3::Identity(), -R * cross(source[pair.source].base);

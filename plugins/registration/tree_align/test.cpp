@@ -69,6 +69,41 @@ TEST(TreeAlign, TiltIsCorrectedWhenAskedFor) {
   EXPECT_LT(rotation_angle(corrects.T_target_source.inverse() * SE3::exp(xi)), 0.003);
 }
 
+std::vector<Tree> lifted(std::vector<Tree> trees, double height, std::size_t every = 1) {
+  for (std::size_t i = 0; i < trees.size(); i += every) trees[i].base.z() += height;
+  return trees;
+}
+
+TEST(TreeAlign, ALessThanCommonGroundDoesNotLift) {
+  const auto source = stand(80), target = lifted(source, 1.5, 6);  // a sixth of the bases is off
+  EXPECT_NEAR(align(target, source, SE3{}).T_target_source.t.z(), 0, 0.02);
+}
+
+TEST(TreeAlign, HeightsThatContradictTheGuessAreLeftOpen) {
+  const auto source = stand(80), target = lifted(source, 1.0);
+  const Alignment doubts = align(target, source, SE3{}),
+                  believes = align(target, source, SE3{}, "{max_height_change: 2}");
+  EXPECT_NEAR(doubts.T_target_source.t.z(), 0, 1e-6);
+  EXPECT_LT(doubts.information(2, 2), 0.02) << "max_sigma is 10";
+  EXPECT_NEAR(believes.T_target_source.t.z(), 1, 1e-3);
+  EXPECT_GT(believes.information(2, 2), 1);
+}
+
+// A robot's base frame may lean by ten degrees: it is the stems that say where up is.
+TEST(TreeAlign, HeightsAreAlongTheStemsNotAlongTheRobot) {
+  Vec6 xi = Vec6::Zero();
+  xi[4] = 0.25;
+  const SE3 T_tilted_level = SE3::exp(xi);
+  const auto level = stand(80);
+  const Alignment a =
+      align(moved(T_tilted_level, lifted(level, 1.0)), moved(T_tilted_level, level), SE3{});
+  const Mat3 R = T_tilted_level.rotation();
+  const Mat3 information = R.transpose() * a.information.topLeftCorner<3, 3>() * R;
+  EXPECT_LT(information(2, 2), 0.02) << "height is open";
+  EXPECT_GT(information(0, 0), 100);
+  EXPECT_LT(a.T_target_source.t.norm(), 1e-3) << "no height leaks into the plane";
+}
+
 TEST(TreeAlign, InformationIsPositiveDefiniteAndWeakWhereNothingHolds) {
   const auto trees = stand(60);
   const Mat6 information = align(trees, trees, SE3{}).information;

@@ -24,6 +24,10 @@ class TreeAlign final : public Registration {
     v("correct_tilt", correct_tilt_, "Also correct roll and pitch, against gravity as a prior");
     v("sigma_stem", noise_.stem, "Of a stem's horizontal position", above(0.0, "m"));
     v("sigma_base", noise_.base, "Of the ground that a node's bases lie on", above(0.0, "m"));
+    v("min_height_share", min_height_share_,
+      "Heights count when this share of the matched bases agrees", between(0.0, 1.0));
+    v("max_height_change", max_height_change_, "Nor do they when they would lift the guess further",
+      above(0.0, "m"));
     v("sigma_tilt", noise_.tilt, "How well gravity is known", above(0.0, "rad"));
     v("max_sigma", max_sigma_, "Weak directions get this much, instead of a failure",
       above(0.0, "m"));
@@ -38,7 +42,17 @@ class TreeAlign final : public Registration {
     if (!T_target_source_guess.finite()) return failure("the guess is not finite");
     if (!target.payload.trees) return failure("the target has no trees");
     if (!source.payload.trees) return failure("the source has no trees");
-    return fit(usable(*target.payload.trees), usable(*source.payload.trees), T_target_source_guess);
+    const auto targets = usable(*target.payload.trees), sources = usable(*source.payload.trees);
+    const Quat upright = q_upright_target(targets, sources, T_target_source_guess.q);
+    const SE3 T_upright_target{upright, Vec3::Zero()};
+    Alignment out =
+        fit(turned(upright, targets), sources, T_upright_target * T_target_source_guess);
+    out.T_target_source = T_upright_target.inverse() * out.T_target_source;
+    Mat6 turn = Mat6::Identity();  // of the residual: its translation is in the target's axes
+    turn.topLeftCorner<3, 3>() = T_upright_target.rotation();
+    out.information = turn.transpose() * out.information * turn;
+    out.information = Mat6(0.5 * (out.information + out.information.transpose()));
+    return out;
   }
 
  private:
@@ -53,15 +67,25 @@ class TreeAlign final : public Registration {
     constexpr int iterations = 12;  // it stands still after five or six
     Fit best{guess, Mat6::Zero(), 0};
     std::vector<Pair> pairs;
+    Heights bases;
+    bool known = false;
     for (int i = 0; i < iterations; ++i) {
       const double radius = i < iterations / 3 ? coarse_radius_ : radius_;
       pairs = mutual_pairs(target, source, best.T_target_source, radius, max_dbh_difference_);
       if (pairs.size() < std::size_t(min_matches_))
         return failure(std::to_string(pairs.size()) + " stems match, below min_matches " +
                        std::to_string(min_matches_));
-      best = step(target, source, pairs, best.T_target_source, noise_, correct_tilt_);
+      bases = heights(target, source, pairs, best.T_target_source);
+      const double lifted = bases.offset + best.T_target_source.t.z() - guess.t.z();
+      known = bases.share >= min_height_share_ && std::abs(lifted) <= max_height_change_;
+      if (!known) std::fill(bases.weights.begin(), bases.weights.end(), 0.0);
+      best =
+          step(target, source, pairs, bases.weights, best.T_target_source, noise_, correct_tilt_);
+      if (!known) best.T_target_source.t.z() = guess.t.z();
     }
-    return judged(best, pairs.size(), std::min(target.size(), source.size()));
+    Alignment out = judged(best, pairs.size(), std::min(target.size(), source.size()));
+    out.scores.emplace_back("height_share", known ? bases.share : 0.0);
+    return out;
   }
 
   Alignment judged(const Fit& fit, std::size_t matches, std::size_t stems) const {
@@ -92,6 +116,8 @@ class TreeAlign final : public Registration {
   double max_dbh_difference_ = 0.15;
   int min_matches_ = 8;
   double max_rmse_ = 0.3;
+  double min_height_share_ = 0.8;
+  double max_height_change_ = 0.3;
   bool correct_tilt_ = false;
   Noise noise_;
   double max_sigma_ = 10.0;
