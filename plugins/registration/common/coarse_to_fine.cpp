@@ -21,13 +21,13 @@ std::string too_few(const char* which, std::size_t found, int needed) {
 
 }  // namespace
 
-Level CoarseToFine::make_level(const Cloud& cloud, double voxel_size) const {
+Level CoarseToFine::make_level(const Thinned& cloud) const {
   Level level;
-  level.surface = make_surface(thin(cloud, voxel_size), neighbours_);
-  level.sample = sample(*level.surface.points, std::size_t(source_points_));
-  level.spacing = voxel_size * std::sqrt(double(level.surface.size()) /
-                                         double(std::max<std::size_t>(level.sample->size(), 1)));
-  if (level.surface.size() >= std::size_t(min_points_)) extend(level, voxel_size);
+  level.surface = make_surface(cloud, neighbours_);
+  level.sample = sample(level.surface.patches, std::size_t(source_points_));
+  level.spacing = cloud.voxel_size * std::sqrt(double(level.surface.size()) /
+                                               double(std::max<std::size_t>(level.sample.size(), 1)));
+  if (level.surface.size() >= std::size_t(min_points_)) extend(level, cloud.voxel_size);
   return level;
 }
 
@@ -36,11 +36,12 @@ Prepared CoarseToFine::prepare(const Payload& payload, const Context& context) c
   auto prepared = std::make_shared<PreparedCloud>();
   const Cloud none;
   const Cloud& cloud = payload.cloud ? *payload.cloud : none;
-  prepared->coarse = make_level(cloud, coarse_voxel_size_);
-  prepared->fine = make_level(cloud, voxel_size_);
+  const Thinned fine = thin(cloud, voxel_size_);
+  prepared->fine = make_level(fine);
+  prepared->coarse = make_level(thin(fine.points, coarse_voxel_size_));
   std::size_t bytes = sizeof(PreparedCloud);
   for (const Level* level : {&prepared->coarse, &prepared->fine})
-    bytes += level->surface.bytes() + level->sample->size() * sizeof(Point) + level->extra_bytes;
+    bytes += level->surface.bytes() + level->sample.size() * sizeof(Patch) + level->extra_bytes;
   return {payload, prepared, bytes};
 }
 
@@ -53,12 +54,12 @@ std::optional<SE3> CoarseToFine::best_coarse(const PreparedCloud& target,
                     10 * translation_epsilon_, 10 * rotation_epsilon_};
   std::optional<SE3> best;
   double best_overlap = -1;
-  for (const SE3& start : search(target.coarse.surface, *source.coarse.sample, guess, window)) {
+  for (const SE3& start : search(target.coarse.surface, source.coarse.sample, guess, window)) {
     context.check_cancelled();
     const std::optional<SE3> T = refine(target.coarse, source.coarse, start, stage);
     if (!T || !T->finite()) continue;
     const double overlap =
-        evaluate(target.coarse.surface, *source.coarse.sample, *T, coarse_voxel_size_).overlap;
+        evaluate(target.coarse.surface, source.coarse.sample, *T, coarse_voxel_size_).overlap;
     if (overlap > best_overlap) {
       best_overlap = overlap;
       best = T;
@@ -69,7 +70,7 @@ std::optional<SE3> CoarseToFine::best_coarse(const PreparedCloud& target,
 
 void CoarseToFine::judge(const Level& target, const Level& source, Alignment& alignment) const {
   const Quality quality =
-      evaluate(target.surface, *source.sample, alignment.T_target_source, overlap_distance_);
+      evaluate(target.surface, source.sample, alignment.T_target_source, overlap_distance_);
   alignment.scores = {{"overlap", quality.overlap}, {"rmse", quality.rmse}};
   alignment.information = information(quality, {sigma_translation_floor_, sigma_rotation_floor_,
                                                 correlation_length_, source.spacing});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the registrations on PCL share: preparing a cloud once, finding starts, refining from a
+// What gicp, icp_point_to_plane and ndt share: preparing a cloud once, finding starts, refining from a
 // coarse to a fine cloud, and judging the result. A method brings `refine`.
 #pragma once
 #include <memory>
@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "cambium/plugin.hpp"
+#include "common/optimise.hpp"
 #include "common/quality.hpp"
 #include "common/search.hpp"
-#include "common/surface.hpp"
 
 namespace cambium::registration {
 
 /// One resolution of a prepared cloud.
 struct Level {
   Surface surface;                    ///< as a target: all points
-  Points::Ptr sample;                 ///< as a source: evenly fewer, since every one costs a search
+  Patches sample;                     ///< as a source: evenly fewer, since every one costs a search
   double spacing = 0;                 ///< of the sample along a surface [m]
   std::shared_ptr<const void> extra;  ///< the method's own
   std::size_t extra_bytes = 0;
@@ -25,15 +25,6 @@ struct Level {
 
 struct PreparedCloud {
   Level coarse, fine;
-};
-
-/// What `refine` must keep to.
-struct Stage {
-  double voxel_size = 0;                   ///< of both clouds [m]
-  double max_correspondence_distance = 0;  ///< [m]
-  int max_iterations = 0;
-  double translation_epsilon = 0;  ///< stop below this step [m]
-  double rotation_epsilon = 0;     ///< [rad]
 };
 
 class CoarseToFine : public Registration {
@@ -50,7 +41,7 @@ class CoarseToFine : public Registration {
   /// T_target_source near the guess, or nothing when the optimiser gave up.
   virtual std::optional<SE3> refine(const Level& target, const Level& source, const SE3& guess,
                                     const Stage& stage) const = 0;
-  /// Computes what the method wants per cloud besides points, normals and tree.
+  /// Computes what the method wants per cloud besides the surface.
   virtual void extend(Level& /*level*/, double /*voxel_size*/) const {}
 
   double voxel_size_ = 0.4;
@@ -61,9 +52,10 @@ class CoarseToFine : public Registration {
   int max_iterations_ = 30;
   double translation_epsilon_ = 0.002;
   double rotation_epsilon_ = 0.0005;
+  int source_points_ = 4000;
 
  private:
-  Level make_level(const Cloud& cloud, double voxel_size) const;
+  Level make_level(const Thinned& cloud) const;
   std::optional<SE3> best_coarse(const PreparedCloud& target, const PreparedCloud& source,
                                  const SE3& guess, const Context& context) const;
   void judge(const Level& target, const Level& source, Alignment& alignment) const;
@@ -73,7 +65,6 @@ class CoarseToFine : public Registration {
   double search_yaw_ = 0.1;
   double search_step_ = 1.0;
   int hypotheses_ = 3;
-  int source_points_ = 4000;
   double overlap_distance_ = 0.5;
   double min_overlap_ = 0.5;
   double max_rmse_ = 0.2;

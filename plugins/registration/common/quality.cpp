@@ -15,35 +15,34 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Quality evaluate(const Surface& target, const Points& source, const SE3& T_target_source,
+Quality evaluate(const Surface& target, const Patches& source, const SE3& T_target_source,
                  double distance) {
   Quality quality;
   const Eigen::Matrix3d R = T_target_source.rotation();
   const Eigen::Vector3d t = T_target_source.t;
   Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
   double sum = 0;
-  pcl::Indices near(1);
-  std::vector<float> squared(1);
-  for (const Point& point : source) {
-    const Eigen::Vector3d p_source = point.getVector3fMap().cast<double>();
+  std::size_t planes = 0;
+  for (const Patch& patch : source) {
+    const Eigen::Vector3d p_source = patch.at.cast<double>();
     const Eigen::Vector3d p = R * p_source + t;
-    Point query;
-    query.getVector3fMap() = p.cast<float>();
-    if (target.tree->nearestKSearch(query, 1, near, squared) == 0) continue;
-    if (!(squared[0] < distance * distance)) continue;
-    const Point& q = (*target.points)[std::size_t(near[0])];
-    const Eigen::Vector3d n = q.getNormalVector3fMap().cast<double>();
-    const double e = n.dot(p - q.getVector3fMap().cast<double>());
+    const Nearest near = target.index.nearest(p.cast<float>(), float(distance), 0);
+    if (near.index < 0) continue;
+    ++quality.inliers;
+    const Patch& q = target.patches[std::size_t(near.index)];
+    if (q.normal.isZero()) continue;
+    const Eigen::Vector3d n = q.normal.cast<double>();
+    const double e = n.dot(p - q.at.cast<double>());
     Eigen::Matrix<double, 6, 1> J;
     J << n, -(n.transpose() * R * cross_matrix(p_source)).transpose();
     H.selfadjointView<Eigen::Lower>().rankUpdate(J);
     sum += e * e;
-    ++quality.inliers;
+    ++planes;
   }
   quality.normal_equations = H.selfadjointView<Eigen::Lower>();
   if (source.size() == 0 || quality.inliers == 0) return quality;
   quality.overlap = double(quality.inliers) / double(source.size());
-  quality.rmse = std::sqrt(sum / double(quality.inliers));
+  quality.rmse = std::sqrt(sum / double(std::max<std::size_t>(planes, 1)));
   return quality;
 }
 

@@ -16,7 +16,7 @@ struct Quality {
   Mat6 normal_equations = Mat6::Zero();
 };
 
-Quality evaluate(const Surface& target, const Points& source, const SE3& T_target_source,
+Quality evaluate(const Surface& target, const Patches& source, const SE3& T_target_source,
                  double distance);
 
 struct NoiseModel {
