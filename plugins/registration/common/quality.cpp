@@ -22,7 +22,7 @@ Quality evaluate(const Surface& target, const Patches& source, const SE3& T_targ
   const Eigen::Vector3d t = T_target_source.t;
   Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
   double sum = 0;
-  std::size_t planes = 0;
+  std::size_t planes = 0, near_plane = 0;
   for (const Patch& patch : source) {
     const Eigen::Vector3d p_source = patch.at.cast<double>();
     const Eigen::Vector3d p = R * p_source + t;
@@ -37,11 +37,13 @@ Quality evaluate(const Surface& target, const Patches& source, const SE3& T_targ
     J << n, -(n.transpose() * R * cross_matrix(p_source)).transpose();
     H.selfadjointView<Eigen::Lower>().rankUpdate(J);
     sum += e * e;
+    near_plane += std::abs(e) < 0.1;
     ++planes;
   }
   quality.normal_equations = H.selfadjointView<Eigen::Lower>();
   if (source.size() == 0 || quality.inliers == 0) return quality;
   quality.overlap = double(quality.inliers) / double(source.size());
+  quality.inlier_share = double(near_plane) / double(std::max<std::size_t>(planes, 1));
   quality.rmse = std::sqrt(sum / double(std::max<std::size_t>(planes, 1)));
   return quality;
 }
@@ -70,6 +72,11 @@ Mat6 information(const Quality& quality, const NoiseModel& noise) {
   const Eigen::Matrix<double, 6, 1> inverse = floor.cwiseInverse();
   const Eigen::Matrix<double, 6, 6> result = inverse.asDiagonal() * scaled * inverse.asDiagonal();
   return 0.5 * (result + result.transpose());
+}
+
+Vec6 sigmas(const Mat6& information) {
+  const Eigen::Matrix<double, 6, 6> dense = information;
+  return dense.inverse().diagonal().cwiseSqrt();
 }
 
 }  // namespace cambium::registration

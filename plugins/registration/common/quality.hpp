@@ -10,6 +10,7 @@ struct Quality {
   std::size_t inliers = 0;  ///< source points with a target point within the distance
   double overlap = 0;       ///< their share of the source, 0..1
   double rmse = 0;          ///< of their distances to the target's tangent planes [m]
+  double inlier_share = 0;  ///< of those, the share nearer to the plane than 0.1 m
   /// Sum of J'J of those distances, J = n' [I, -R [p]x]: the normal equations in the tangent of
   /// pose_graph.hpp's residual with tail = target and head = source (translation in the target's
   /// axes, rotation in the source's).
@@ -31,5 +32,9 @@ struct NoiseModel {
 /// error. Symmetric positive definite; directions that nothing holds come out weak
 /// (1000 x the floor), not singular.
 Mat6 information(const Quality& quality, const NoiseModel& noise);
+
+/// Standard deviations (translation [m]; rotation [rad]) along the axes: what the scans say about
+/// each.
+Vec6 sigmas(const Mat6& information);
 
 }  // namespace cambium::registration

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Generalized-ICP (Segal, Haehnel, Thrun, RSS 2009).
-#include "common/coarse_to_fine.hpp"
+#include "common/near_guess.hpp"
 
 namespace cambium::registration {
 namespace {
 
-class Gicp final : public CoarseToFine {
+class Gicp final : public NearGuess {
  public:
   Gicp() { source_points_ = 20000; }
   void params(ParamVisitor& v) override {
-    CoarseToFine::params(v);
+    NearGuess::params(v);
     correspondence_params(v);
     v("plane_thickness", plane_thickness_,
       "Variance across a surface, where that along it is 1; larger is nearer to point-to-point",

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Point-to-plane ICP (Chen, Medioni 1992).
-#include "common/coarse_to_fine.hpp"
+#include "common/near_guess.hpp"
 
 namespace cambium::registration {
 namespace {
 
-class IcpPointToPlane final : public CoarseToFine {
+class IcpPointToPlane final : public NearGuess {
  public:
   void params(ParamVisitor& v) override {
-    CoarseToFine::params(v);
+    NearGuess::params(v);
     correspondence_params(v);
   }
 

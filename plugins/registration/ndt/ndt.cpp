@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "common/coarse_to_fine.hpp"
+#include "common/near_guess.hpp"
 #include "pcl.hpp"
 
 namespace cambium::registration {
@@ -22,10 +22,10 @@ Points::Ptr points_of(const Patches& patches) {
   return points;
 }
 
-class Ndt final : public CoarseToFine {
+class Ndt final : public NearGuess {
  public:
   void params(ParamVisitor& v) override {
-    CoarseToFine::params(v);
+    NearGuess::params(v);
     v("cell_points", cell_points_,
       "Cell of the distributions as a multiple of the cloud's voxel: about this squared points "
       "each",
