@@ -41,7 +41,8 @@ struct Tally {
   }
   static void print_header() {
     std::printf(
-        "| pairs | n | correct %% | accepted and correct %% | accepted but wrong | median m | deg | "
+        "| pairs | n | correct %% | accepted and correct %% | accepted but wrong | median m | deg "
+        "| "
         "ms |\n"
         "|---|---|---|---|---|---|---|---|\n");
   }

@@ -32,9 +32,12 @@ int run(int argc, char** argv) {
   };
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
-    if (option == "--global") bench::global_table(next(i, "{}"));
-    else if (option == "--consecutive") bench::consecutive_table();
-    else if (option == "--strangers") bench::stranger_table("{}", std::stoul(next(i, "1")));
+    if (option == "--global")
+      bench::global_table(next(i, "{}"));
+    else if (option == "--consecutive")
+      bench::consecutive_table();
+    else if (option == "--strangers")
+      bench::stranger_table("{}", std::stoul(next(i, "1")));
     else if (option == "--honesty") {
       const int pairs = std::stoi(next(i, "500"));
       bench::honesty_table(next(i, "{}"), pairs);
@@ -54,8 +57,6 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  return run(argc, argv);
-} catch (const std::exception& e) {
+int main(int argc, char** argv) try { return run(argc, argv); } catch (const std::exception& e) {
   return std::fprintf(stderr, "%s\n", e.what()), 1;
 }

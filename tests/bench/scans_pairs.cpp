@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 
 #include "bench/registration_tally.hpp"
 #include "bench/scans.hpp"
@@ -21,8 +23,8 @@ SE3 start(const SE3& truth, bool courtyard) {
 }
 
 struct Chain {
-  std::vector<SE3> T;           ///< T_i_(i+step)
-  std::vector<double> aligned;  ///< [ms]
+  std::vector<SE3> T;                         ///< T_i_(i+step)
+  std::vector<double> aligned;                ///< [ms]
   std::vector<double> translation, rotation;  ///< errors against the truth
 };
 
@@ -60,6 +62,28 @@ void consecutive(const Registration& method, const std::string& name, std::vecto
               median(one.rotation), median(translation), median(rotation));
 }
 
+using Found = std::vector<std::vector<std::optional<SE3>>>;  ///< T_a_b by index of a and b
+
+// The truth errs by a degree, so the pairs are also judged by one another: a ring of four pairs
+// leads back to where it began when all four are right.
+void print_rings(const Found& found) {
+  std::vector<double> open;
+  int wide = 0;
+  for (std::size_t i = 0; i + 1 < found.size(); ++i)
+    for (std::size_t j = 0; j + 1 < found[i].size(); ++j) {
+      const auto &a = found[i][j], &b = found[i + 1][j], &c = found[i + 1][j + 1],
+                 &d = found[i][j + 1];
+      if (!a || !b || !c || !d) continue;
+      open.push_back((*a * b->inverse() * *c * d->inverse()).t.norm());
+      wide += open.back() > 0.5;
+    }
+  std::sort(open.begin(), open.end());
+  std::printf(
+      "rings of four pairs: %zu, open by %.3f m (median), %.3f m (99 %%), %d by more than 0.5 "
+      "m\n\n",
+      open.size(), median(open), open[open.size() * 99 / 100], wide);
+}
+
 }  // namespace
 
 PreparedScans prepare(const Registration& method, std::vector<Scan> scans) {
@@ -76,27 +100,30 @@ void global_table(const std::string& yaml) {
   const auto method = component<Registration>("global_registration", yaml);
   const PreparedScans a = prepare(*method, newer_college("mission_a")),
                       b = prepare(*method, newer_college("mission_b"));
+  if (a.scans.empty()) return;
   constexpr std::array limits{5.0, 10.0, 15.0, 20.0, 25.0, 30.0};
   std::array<Tally, limits.size()> tallies;
   std::vector<double> in_all;
+  Found found(a.scans.size(), std::vector<std::optional<SE3>>(b.scans.size()));
   for (std::size_t i = 0; i < a.scans.size(); ++i)
     for (std::size_t j = 0; j < b.scans.size(); ++j) {
       const SE3 truth = a.scans[i].T_world_base.inverse() * b.scans[j].T_world_base;
       const auto bin = std::upper_bound(limits.begin(), limits.end(), truth.t.norm());
       if (bin == limits.end()) continue;
       const double begin = cpu_milliseconds();
-      const Alignment found =
-          method->align(a.prepared[i], b.prepared[j], SE3{}, *make_context());
+      const Alignment one = method->align(a.prepared[i], b.prepared[j], SE3{}, *make_context());
       const double ms = cpu_milliseconds() - begin;
-      tallies[std::size_t(bin - limits.begin())].add(found, truth, ms);
+      tallies[std::size_t(bin - limits.begin())].add(one, truth, ms);
       in_all.push_back(ms + a.milliseconds[i] + b.milliseconds[j]);
+      found[i][j] = one.T_target_source;
     }
   std::printf("global_registration %s, no guess\n", yaml.c_str());
   Tally::print_header();
   for (std::size_t k = 0; k < limits.size(); ++k)
-    tallies[k].print(std::to_string(int(limits[k]) - 5) + "-" + std::to_string(int(limits[k])) + " m");
-  if (!in_all.empty())
-    std::printf("with preparing both scans: median %.0f ms\n\n", median(in_all));
+    tallies[k].print(std::to_string(int(limits[k]) - 5) + "-" + std::to_string(int(limits[k])) +
+                     " m");
+  std::printf("with preparing both scans: median %.0f ms\n", median(in_all));
+  print_rings(found);
 }
 
 void consecutive_table() {

@@ -90,7 +90,8 @@ void stranger_table(const std::string& yaml, std::size_t stride) {
   Strangers forest;
   const PreparedScans first = prepare(*method, walk(Stand(1), 20));
   for (const std::uint64_t seed : {2, 3, 4})
-    forest.add(*method, first, prepare(*method, walk(Stand(seed), int(20 / std::min<std::size_t>(stride, 20)))));
+    forest.add(*method, first,
+               prepare(*method, walk(Stand(seed), int(20 / std::min<std::size_t>(stride, 20)))));
   forest.print("simulated stands");
   std::printf("\n");
 }
@@ -107,14 +108,15 @@ void honesty_table(const std::string& yaml, int pairs) {
     const double x = 60.0 * std::sqrt((i + 0.5) / pairs) * std::cos(angle),
                  y = 60.0 * std::sqrt((i + 0.5) / pairs) * std::sin(angle);
     const Scan a = stand.scan(x, y, 1.3 * i, 2 * i),
-               b = stand.scan(x + away * std::sin(angle), y + away * std::cos(angle), 0.7 * i, 2 * i + 1);
+               b = stand.scan(x + away * std::sin(angle), y + away * std::cos(angle), 0.7 * i,
+                              2 * i + 1);
     const SE3 truth = a.T_world_base.inverse() * b.T_world_base;
     Vec6 off;
     off << 0.2, -0.1, 0.1, 0.01, 0, 0.03;
     const auto context = make_context();
-    const Alignment found = method->align(method->prepare(a.payload, *context),
-                                          method->prepare(b.payload, *context),
-                                          truth * SE3::exp(off), *context);
+    const Alignment found =
+        method->align(method->prepare(a.payload, *context), method->prepare(b.payload, *context),
+                      truth * SE3::exp(off), *context);
     const SE3 error = found.T_target_source.inverse() * truth;
     if (error.t.norm() > 0.5) continue;  // another minimum, which no covariance speaks of
     Vec6 r;
@@ -125,8 +127,10 @@ void honesty_table(const std::string& yaml, int pairs) {
     ++used;
   }
   const double band = 2.576 * std::sqrt(2 * 6.0 / used);
-  std::printf("gicp %s on %d of %d simulated pairs: NEES %.2f, 99 %% band %.2f to %.2f; median error %.4f m\n",
-              yaml.c_str(), used, pairs, sum / used, 6 - band, 6 + band, median(translation));
+  std::printf(
+      "gicp %s on %d of %d simulated pairs: NEES %.2f, 99 %% band %.2f to %.2f; median error %.4f "
+      "m\n",
+      yaml.c_str(), used, pairs, sum / used, 6 - band, 6 + band, median(translation));
   std::printf("rms per axis:");
   for (int k = 0; k < 6; ++k) std::printf(" %.5f", std::sqrt(axes[k] / used));
   std::printf("\n\n");

@@ -13,8 +13,8 @@ struct BlockIndex::Search {
   Nearest best;
   float bound;  ///< points farther than this change nothing, squared
   Eigen::Array3i place;
-  std::int32_t block;            ///< at that place, -1 when empty
-  Eigen::Array3f low, high;      ///< from the query to the faces of its block [m]
+  std::int32_t block;        ///< at that place, -1 when empty
+  Eigen::Array3f low, high;  ///< from the query to the faces of its block [m]
 
   void shrink() {
     const float reach = std::sqrt(best.squared) + margin;
@@ -36,7 +36,8 @@ BlockIndex::BlockIndex(const Thinned& cloud)
   around_.resize(places_.size());
   for (std::size_t b = 0; b < places_.size(); ++b)
     for (int i = 0; i < 27; ++i)
-      around_[b][std::size_t(i)] = find(places_[b] + Eigen::Array3i(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1));
+      around_[b][std::size_t(i)] =
+          find(places_[b] + Eigen::Array3i(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1));
   for (const Eigen::Vector3f& p : cloud.points) {
     x_.push_back(p.x());
     y_.push_back(p.y());

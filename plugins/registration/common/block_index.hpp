@@ -33,6 +33,7 @@ class BlockIndex {
   std::size_t bytes() const {
     return slots_.size() * 4 + places_.size() * 124 + 3 * x_.size() * sizeof(float);
   }
+
  private:
   std::int32_t find(const Eigen::Array3i& place) const {
     for (std::uint32_t slot = hash(place) & mask_;; slot = (slot + 1) & mask_) {

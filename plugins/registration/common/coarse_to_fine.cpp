@@ -21,12 +21,10 @@ std::string too_few(const char* which, std::size_t found, int needed) {
          std::to_string(needed) + " (min_points)";
 }
 
-constexpr int coarse_source_points = 2000;    // the start need not be better
-constexpr std::size_t probe_points = 4000;    // more do not change the judgement
+constexpr int coarse_source_points = 2000;  // the start need not be better
+constexpr std::size_t probe_points = 4000;  // more do not change the judgement
 
-bool enough(const Level& level, int needed) {
-  return level.surface.size() >= std::size_t(needed);
-}
+bool enough(const Level& level, int needed) { return level.surface.size() >= std::size_t(needed); }
 
 // Both ways: either scan may see through what the other one found.
 Sight sight_of(const PreparedCloud& target, const PreparedCloud& source, const SE3& T) {
@@ -90,8 +88,7 @@ std::optional<SE3> CoarseToFine::best_coarse(const PreparedCloud& target,
 void CoarseToFine::judge(const PreparedCloud& target, const PreparedCloud& source,
                          Alignment& alignment) const {
   const SE3& T = alignment.T_target_source;
-  const Quality quality =
-      evaluate(target.fine.surface, source.fine.probe, T, overlap_distance_);
+  const Quality quality = evaluate(target.fine.surface, source.fine.probe, T, overlap_distance_);
   const double seen_through = sight_of(target, source, T).share();
   NoiseModel noise = noise_;
   noise.spacing = source.fine.spacing;
@@ -101,7 +98,8 @@ void CoarseToFine::judge(const PreparedCloud& target, const PreparedCloud& sourc
                       {"rmse", quality.rmse},
                       {"seen_through", seen_through}};
   const Vec6 sigma = sigmas(alignment.information);
-  constexpr std::array axes = {"sigma_x", "sigma_y", "sigma_z", "sigma_roll", "sigma_pitch", "sigma_yaw"};
+  constexpr std::array axes = {"sigma_x",    "sigma_y",     "sigma_z",
+                               "sigma_roll", "sigma_pitch", "sigma_yaw"};
   for (std::size_t i = 0; i < axes.size(); ++i)
     alignment.scores.push_back({axes[i], sigma[Eigen::Index(i)]});
   if (quality.overlap < min_overlap_)

@@ -13,8 +13,8 @@ void CoarseToFine::params(ParamVisitor& v) {
     above(0.0, "m"));
   v("rotation_epsilon", rotation_epsilon_, "The optimiser stops below this step",
     above(0.0, "rad"));
-  v("source_points", source_points_,
-    "At most this many points of the source are matched", between(100, 1e7));
+  v("source_points", source_points_, "At most this many points of the source are matched",
+    between(100, 1e7));
   v("overlap_distance", overlap_distance_,
     "A source point with a target point within this distance counts as overlapping",
     above(0.0, "m"));

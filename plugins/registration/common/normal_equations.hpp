@@ -17,9 +17,9 @@ inline Weight to_plane(const Eigen::Vector3f& n) {
   return {n.x() * n.x(), n.x() * n.y(), n.x() * n.z(), n.y() * n.y(), n.y() * n.z(), n.z() * n.z()};
 }
 
-/// The inverse of C_n + C_m with C_n = I - k n n', k = 1 - thickness. The sum is 2 I - k (nn' + mm'),
-/// whose axes are n + m, n - m and their cross product, so with c = n'm the inverse is
-/// I/2 + k/4 ss'/(2 - k(1+c)) + k/4 dd'/(2 - k(1-c)), s = n + m, d = n - m. A zero normal is a ball.
+/// The inverse of C_n + C_m with C_n = I - k n n', k = 1 - thickness. The sum is 2 I - k (nn' +
+/// mm'), whose axes are n + m, n - m and their cross product, so with c = n'm the inverse is I/2 +
+/// k/4 ss'/(2 - k(1+c)) + k/4 dd'/(2 - k(1-c)), s = n + m, d = n - m. A zero normal is a ball.
 inline Weight disc_to_disc(const Eigen::Vector3f& n, const Eigen::Vector3f& m, float thickness) {
   const float k = 1 - thickness, c = n.dot(m);
   const float a = 0.25F * k / (2 - k * (1 + c)), b = 0.25F * k / (2 - k * (1 - c));
@@ -42,10 +42,33 @@ class NormalEquations {
     const double m02 = b * x - a * y, m12 = d * x - b * y, m22 = f * x - c * y;
     const double u = a * e.x() + b * e.y() + c * e.z(), v = b * e.x() + d * e.y() + f * e.z(),
                  r = c * e.x() + f * e.y() + g * e.z();
-    const std::array<double, 27> terms = {
-        a, b, c, d, f, g, m00, m10, m20, m01, m11, m21, m02, m12, m22,
-        y * m20 - z * m10, y * m21 - z * m11, y * m22 - z * m12, z * m01 - x * m21,
-        z * m02 - x * m22, x * m12 - y * m02, u, v, r, y * r - z * v, z * u - x * r, x * v - y * u};
+    const std::array<double, 27> terms = {a,
+                                          b,
+                                          c,
+                                          d,
+                                          f,
+                                          g,
+                                          m00,
+                                          m10,
+                                          m20,
+                                          m01,
+                                          m11,
+                                          m21,
+                                          m02,
+                                          m12,
+                                          m22,
+                                          y * m20 - z * m10,
+                                          y * m21 - z * m11,
+                                          y * m22 - z * m12,
+                                          z * m01 - x * m21,
+                                          z * m02 - x * m22,
+                                          x * m12 - y * m02,
+                                          u,
+                                          v,
+                                          r,
+                                          y * r - z * v,
+                                          z * u - x * r,
+                                          x * v - y * u};
     for (std::size_t i = 0; i < terms.size(); ++i) sums_[i] += terms[i];
     ++pairs_;
   }

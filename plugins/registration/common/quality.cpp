@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 namespace cambium::registration {
 namespace {
@@ -65,8 +66,10 @@ Mat6 information(const Quality& quality, const NoiseModel& noise) {
       floor.asDiagonal() * (quality.normal_equations * (independent_share / variance)) *
       floor.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(B);
+  constexpr double unheld = 30;  // [m] standard deviation where nothing holds
+  const double least = std::pow(noise.translation_floor / unheld, 2);
   const Eigen::Matrix<double, 6, 1> held =
-      eigen.eigenvalues().unaryExpr([](double b) { return std::max(b / (1 + b), 1e-6); });
+      eigen.eigenvalues().unaryExpr([&](double b) { return std::max(b / (1 + b), least); });
   const Eigen::Matrix<double, 6, 6> scaled =
       eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose();
   const Eigen::Matrix<double, 6, 1> inverse = floor.cwiseInverse();

@@ -23,14 +23,14 @@ Quality evaluate(const Surface& target, const Patches& source, const SE3& T_targ
 struct NoiseModel {
   double translation_floor = 0.03;  ///< [m]
   double rotation_floor = 0.007;    ///< [rad]
-  double correlation_length = 2;    ///< residuals nearer to each other are one observation [m]
+  double correlation_length = 2.6;  ///< residuals nearer to each other are one observation [m]
   double spacing = 0.3;             ///< of the points that were evaluated [m]
 };
 
 /// Information of (translation; rotation): residual variance and normal equations, the number of
 /// points cut to that of independent patches, then added to the floor as a second, independent
-/// error. Symmetric positive definite; directions that nothing holds come out weak
-/// (1000 x the floor), not singular.
+/// error. Symmetric positive definite; directions that nothing holds come out weak (30 m, or 30 m
+/// times the ratio of the floors), not singular.
 Mat6 information(const Quality& quality, const NoiseModel& noise);
 
 /// Standard deviations (translation [m]; rotation [rad]) along the axes: what the scans say about

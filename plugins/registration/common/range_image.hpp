@@ -28,7 +28,7 @@ class RangeImage {
 
 /// What one scan says about the standing surfaces of another.
 struct Sight {
-  std::size_t confirmed = 0;    ///< the rays end at them
+  std::size_t confirmed = 0;     ///< the rays end at them
   std::size_t seen_through = 0;  ///< the rays pass where they would be
   Sight& operator+=(const Sight& other) {
     confirmed += other.confirmed;

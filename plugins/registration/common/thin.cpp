@@ -53,8 +53,7 @@ void sort_by_key(std::vector<Keyed>& items) {
 
 void open_block(std::uint64_t block, Thinned& out) {
   Eigen::Array3i place;
-  for (int k = 2; k >= 0; --k, block >>= 19)
-    place[k] = int(block & ((1 << 19) - 1)) - farthest / 4;
+  for (int k = 2; k >= 0; --k, block >>= 19) place[k] = int(block & ((1 << 19) - 1)) - farthest / 4;
   out.first.push_back(out.points.size());
   out.blocks.push_back(place);
 }

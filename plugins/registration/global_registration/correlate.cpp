@@ -71,10 +71,11 @@ double height(const Plan& target, const Plan& source, const PlanGrid& grid, cons
   for (std::size_t k = 0; k < source.ground.size(); ++k) {
     if (std::isnan(source.ground[k])) continue;
     const int x = from_zero(k % n, grid.width), y = from_zero(k / n, grid.width);
-    const int i = int(std::lround(c * x - s * y)) + peak.x, j = int(std::lround(s * x + c * y)) + peak.y;
+    const int i = int(std::lround(c * x - s * y)) + peak.x,
+              j = int(std::lround(s * x + c * y)) + peak.y;
     if (std::max(std::abs(i), std::abs(j)) >= grid.width / 2) continue;
-    const float below = target.ground[std::size_t(j & (grid.width - 1)) * n +
-                                      std::size_t(i & (grid.width - 1))];
+    const float below =
+        target.ground[std::size_t(j & (grid.width - 1)) * n + std::size_t(i & (grid.width - 1))];
     if (!std::isnan(below)) lifts.push_back(below - source.ground[k]);
   }
   if (lifts.empty()) return 0;

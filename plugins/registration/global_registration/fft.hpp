@@ -24,7 +24,7 @@ class Fft {
   void columns(const float* re, const float* im, float* re_out, float* im_out) const;
 
   int width_;
-  std::vector<int> reversed_;      ///< bits of each index in reverse
+  std::vector<int> reversed_;     ///< bits of each index in reverse
   std::vector<float> cos_, sin_;  ///< of 2 pi k / width
 };
 

@@ -59,7 +59,8 @@ void enter_ground(const Eigen::Vector3f& p, const PlanGrid& grid, std::vector<fl
 }  // namespace
 
 std::size_t Plan::bytes() const {
-  const std::size_t each = spectra.empty() ? 0 : spectra.front().size() * sizeof(std::complex<float>);
+  const std::size_t each =
+      spectra.empty() ? 0 : spectra.front().size() * sizeof(std::complex<float>);
   return spectra.size() * each + ground.size() * sizeof(float);
 }
 

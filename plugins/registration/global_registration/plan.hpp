@@ -14,9 +14,9 @@ namespace cambium::registration {
 /// The grid of all plans of one configuration. It is periodic: what sticks out comes in again on
 /// the other side, so it must be wide enough for two scans side by side.
 struct PlanGrid {
-  double cell = 1;    ///< [m]
-  int width = 128;    ///< cells
-  int headings = 45;  ///< over half a turn; the other half mirrors them
+  double cell = 1;        ///< [m]
+  int width = 128;        ///< cells
+  int headings = 45;      ///< over half a turn; the other half mirrors them
   double max_range = 45;  ///< points farther out are left out [m]
   double turn(int heading) const { return M_PI * heading / headings; }
 };

@@ -37,8 +37,8 @@ TEST(GlobalRegistration, FindsAnyHeadingWithoutAGuess) {
 
 TEST(GlobalRegistration, FindsWhatIsFarAwayAndOnAnotherHeight) {
   const auto method = component<Registration>("global_registration", "{min_overlap: 0.2}");
-  const SE3 T_world_a = motion(0, 0, 1, 0, 0, 0), T_world_b = motion(14, -12, 6, 0, 0, 0) *
-                                                               SE3::from_yaw(2.5);
+  const SE3 T_world_a = motion(0, 0, 1, 0, 0, 0),
+            T_world_b = motion(14, -12, 6, 0, 0, 0) * SE3::from_yaw(2.5);
   const Alignment found = align(*method, forest_scan(T_world_a), forest_scan(T_world_b));
   expect_near(found.T_target_source, T_world_a.inverse() * T_world_b, 0.15, 0.02);
 }
@@ -52,8 +52,8 @@ TEST(GlobalRegistration, TheGuessChangesNothing) {
 TEST(GlobalRegistration, SwappedRolesGiveTheInverse) {
   const auto method = component<Registration>("global_registration");
   const Cloud a = forest_scan(SE3{}), b = forest_scan(motion(3, 1, 0, 0, 0, 2));
-  expect_near(align(*method, a, b).T_target_source,
-              align(*method, b, a).T_target_source.inverse(), 0.05, 0.005);
+  expect_near(align(*method, a, b).T_target_source, align(*method, b, a).T_target_source.inverse(),
+              0.05, 0.005);
 }
 
 TEST(GlobalRegistration, AnotherPlaceDoesNotConverge) {
