@@ -35,6 +35,23 @@ std::vector<SE3> read_kitti(const fs::path& path, std::size_t count) {
   return poses;
 }
 
+// The recorder left a block of old bytes behind the points, which a mission's reader rightly
+// refuses.
+void copy_promised(const fs::path& from, const fs::path& to) {
+  std::ifstream in(from, std::ios::binary);
+  std::ofstream out(to, std::ios::binary);
+  std::size_t points = 0, bytes = 0;
+  for (std::string line; bytes == 0 && std::getline(in, line);) {
+    out << line << '\n';
+    if (line.starts_with("POINTS ")) points = std::stoul(line.substr(7));
+    if (line == "DATA binary") bytes = points * 4 * sizeof(float);  // x y z intensity
+  }
+  std::string body(bytes, '\0');
+  if (!in.read(body.data(), std::streamsize(bytes)))
+    throw Error(ErrorCode::data, from.string(), "too few points");
+  out << body;
+}
+
 }  // namespace
 
 std::vector<Scan> newer_college(const std::string& mission) {
@@ -69,7 +86,7 @@ std::vector<Scan> mulran(const std::string& sequence) {
     std::snprintf(cloud, sizeof cloud, "individual_clouds/cloud_%lld_%09d.pcd",
                   static_cast<long long>(mission.nodes[i].stamp->sec),
                   mission.nodes[i].stamp->nsec);
-    fs::create_symlink(data / sequence / "Scans" / scan, folder / cloud);
+    copy_promised(data / sequence / "Scans" / scan, folder / cloud);
   }
   std::ofstream graph(folder / "slam_pose_graph.g2o");
   write_g2o(graph, mission);

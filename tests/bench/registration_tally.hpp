@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <time.h>
+
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -11,6 +13,13 @@
 namespace cambium::bench {
 
 constexpr double degree = M_PI / 180;
+
+// Of this thread: other programs on the machine do not count.
+inline double cpu_milliseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
+}
 
 /// The pairs of one line of the table.
 struct Tally {
@@ -29,6 +38,13 @@ struct Tally {
     if (!good) return;
     translation.push_back(error.t.norm());
     rotation.push_back(rotation_angle(error) / degree);
+  }
+  static void print_header() {
+    std::printf(
+        "| pairs | n | correct %% | accepted and correct %% | accepted but wrong | median m | deg "
+        "| "
+        "ms |\n"
+        "|---|---|---|---|---|---|---|---|\n");
   }
   void print(const std::string& label) const {
     if (pairs == 0) return;

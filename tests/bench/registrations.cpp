@@ -2,8 +2,6 @@
 // How often and how fast registrations succeed on real scans:
 //   bench_registrations gicp ["{hypotheses: 1}"]
 // Built with -DCAMBIUM_BUILD_BENCH=ON; see docs/benchmarks.md.
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,16 +15,10 @@
 namespace {
 
 using namespace cambium;
+using bench::cpu_milliseconds;
 using bench::degree;
 using bench::Scan;
 using bench::Tally;
-
-// Of this thread: other programs on the machine do not count.
-double cpu_milliseconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
-}
 
 struct PreparedScans {
   std::vector<Prepared> clouds;
@@ -119,10 +111,7 @@ int main(int argc, char** argv) try {
   if (argc < 2) return std::fprintf(stderr, "usage: %s PLUGIN [YAML]\n", argv[0]), 2;
   const auto method = cambium::testing::component<Registration>(argv[1], argc > 2 ? argv[2] : "{}");
   std::printf("%s %s\n", argv[1], argc > 2 ? argv[2] : "");
-  std::printf(
-      "| pairs | n | correct %% | accepted and correct %% | accepted but wrong | median m | deg | "
-      "ms |\n"
-      "|---|---|---|---|---|---|---|---|\n");
+  Tally::print_header();
   for (const Start& start : starts) between_missions(*method, start);
   for (const char* sequence : {"KAIST03", "Seosan01"})
     along_path(*method, sequence, bench::mulran(sequence), 1);

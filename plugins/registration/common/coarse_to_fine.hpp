@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the registrations on PCL share: preparing a cloud once, finding starts, refining from a
-// coarse to a fine cloud, and judging the result. A method brings `refine`.
+// What the registrations of clouds share: preparing a cloud once, refining starts from a coarse to
+// a fine cloud, and judging the result. A method brings `starts` and `refine`.
 #pragma once
 #include <memory>
 #include <optional>
@@ -8,32 +8,27 @@
 #include <vector>
 
 #include "cambium/plugin.hpp"
+#include "common/optimise.hpp"
 #include "common/quality.hpp"
-#include "common/search.hpp"
-#include "common/surface.hpp"
+#include "common/range_image.hpp"
 
 namespace cambium::registration {
 
 /// One resolution of a prepared cloud.
 struct Level {
   Surface surface;                    ///< as a target: all points
-  Points::Ptr sample;                 ///< as a source: evenly fewer, since every one costs a search
-  double spacing = 0;                 ///< of the sample along a surface [m]
+  Patches sample;                     ///< as a source: evenly fewer, since every one costs a search
+  Patches probe;                      ///< still fewer, to judge a result
+  double spacing = 0;                 ///< of the probe along a surface [m]
   std::shared_ptr<const void> extra;  ///< the method's own
   std::size_t extra_bytes = 0;
 };
 
 struct PreparedCloud {
   Level coarse, fine;
-};
-
-/// What `refine` must keep to.
-struct Stage {
-  double voxel_size = 0;                   ///< of both clouds [m]
-  double max_correspondence_distance = 0;  ///< [m]
-  int max_iterations = 0;
-  double translation_epsilon = 0;  ///< stop below this step [m]
-  double rotation_epsilon = 0;     ///< [rad]
+  RangeImage sight;
+  std::shared_ptr<const void> extra;  ///< what `starts` needs
+  std::size_t extra_bytes = 0;
 };
 
 class CoarseToFine : public Registration {
@@ -47,11 +42,15 @@ class CoarseToFine : public Registration {
  protected:
   /// For methods that pair points: params() of such a method calls this too.
   void correspondence_params(ParamVisitor& v);
+  /// Distinct T_target_source to refine on the coarse clouds.
+  virtual std::vector<SE3> starts(const PreparedCloud& target, const PreparedCloud& source,
+                                  const SE3& guess) const = 0;
   /// T_target_source near the guess, or nothing when the optimiser gave up.
   virtual std::optional<SE3> refine(const Level& target, const Level& source, const SE3& guess,
                                     const Stage& stage) const = 0;
-  /// Computes what the method wants per cloud besides points, normals and tree.
+  /// Computes what the method wants per cloud besides the surface.
   virtual void extend(Level& /*level*/, double /*voxel_size*/) const {}
+  virtual void extend(PreparedCloud& /*cloud*/) const {}
 
   double voxel_size_ = 0.4;
   double coarse_voxel_size_ = 1.0;
@@ -61,26 +60,20 @@ class CoarseToFine : public Registration {
   int max_iterations_ = 30;
   double translation_epsilon_ = 0.002;
   double rotation_epsilon_ = 0.0005;
-
- private:
-  Level make_level(const Cloud& cloud, double voxel_size) const;
-  std::optional<SE3> best_coarse(const PreparedCloud& target, const PreparedCloud& source,
-                                 const SE3& guess, const Context& context) const;
-  void judge(const Level& target, const Level& source, Alignment& alignment) const;
-
-  double search_radius_ = 10.0;
-  double search_height_ = 1.0;
-  double search_yaw_ = 0.1;
-  double search_step_ = 1.0;
-  int hypotheses_ = 3;
   int source_points_ = 4000;
   double overlap_distance_ = 0.5;
   double min_overlap_ = 0.5;
   double max_rmse_ = 0.2;
+  double max_seen_through_ = 0.1;
+
+ private:
+  Level make_level(const Thinned& cloud, int source_points) const;
+  std::optional<SE3> best_coarse(const PreparedCloud& target, const PreparedCloud& source,
+                                 const SE3& guess, const Context& context) const;
+  void judge(const PreparedCloud& target, const PreparedCloud& source, Alignment& alignment) const;
+
   int min_points_ = 100;
-  double sigma_translation_floor_ = 0.03;
-  double sigma_rotation_floor_ = 0.007;
-  double correlation_length_ = 2.0;
+  NoiseModel noise_;
 };
 
 }  // namespace cambium::registration

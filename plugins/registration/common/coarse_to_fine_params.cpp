@@ -13,29 +13,23 @@ void CoarseToFine::params(ParamVisitor& v) {
     above(0.0, "m"));
   v("rotation_epsilon", rotation_epsilon_, "The optimiser stops below this step",
     above(0.0, "rad"));
-  v("search_radius", search_radius_,
-    "Starts are searched in this horizontal distance around the guess; 0 = start at the guess",
-    between(0.0, 100.0, "m"));
-  v("search_height", search_height_, "Starts are searched this far up and down",
-    between(0.0, 20.0, "m"));
-  v("search_yaw", search_yaw_, "Starts are searched this far to either side of the guess's yaw",
-    between(0.0, 3.15, "rad"));
-  v("search_step", search_step_, "Grid of the search", above(0.0, "m"));
-  v("hypotheses", hypotheses_, "How many distinct starts are refined", between(1, 100));
-  v("source_points", source_points_,
-    "At most this many points of the source are matched, on either cloud", between(100, 1e7));
+  v("source_points", source_points_, "At most this many points of the source are matched",
+    between(100, 1e7));
   v("overlap_distance", overlap_distance_,
     "A source point with a target point within this distance counts as overlapping",
     above(0.0, "m"));
   v("min_overlap", min_overlap_, "Less overlap is no convergence", between(0.0, 1.0));
   v("max_rmse", max_rmse_, "A larger point-to-plane residual is no convergence", above(0.0, "m"));
+  v("max_seen_through", max_seen_through_,
+    "A larger share of standing surfaces where the other scan looks through is no convergence",
+    between(0.0, 1.0));
   v("min_points", min_points_, "A thinned cloud with fewer points is not registered",
     between(10, 1e6));
-  v("sigma_translation_floor", sigma_translation_floor_,
+  v("sigma_translation_floor", noise_.translation_floor,
     "The information matrix never claims to know the translation better", above(0.0, "m"));
-  v("sigma_rotation_floor", sigma_rotation_floor_,
+  v("sigma_rotation_floor", noise_.rotation_floor,
     "The information matrix never claims to know the rotation better", above(0.0, "rad"));
-  v("correlation_length", correlation_length_,
+  v("correlation_length", noise_.correlation_length,
     "Residuals of points nearer to each other count as one observation", above(0.0, "m"));
 }
 

@@ -11,11 +11,11 @@ constexpr float farthest = 60;  // [m] scans are sparse beyond, and the grid is 
 
 }  // namespace
 
-Eigen::Matrix3Xf upright(const Points& points) {
+Eigen::Matrix3Xf upright(const Patches& patches) {
   std::vector<float> xyz;
-  for (const Point& p : points)
-    if (std::abs(p.normal_z) < 0.7F && p.getVector3fMap().norm() < farthest)
-      xyz.insert(xyz.end(), {p.x, p.y, p.z});
+  for (const Patch& p : patches)
+    if (p.normal.head<2>().norm() > 0.7F && p.at.norm() < farthest)
+      xyz.insert(xyz.end(), p.at.data(), p.at.data() + 3);
   return Eigen::Map<Eigen::Matrix3Xf>(xyz.data(), 3, Eigen::Index(xyz.size() / 3));
 }
 

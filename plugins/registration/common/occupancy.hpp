@@ -8,9 +8,9 @@
 
 namespace cambium::registration {
 
-/// The points whose surface stands up (walls, stems), 3 x n. Level ground matches itself wherever
-/// one puts it and would hide the horizontal offset.
-Eigen::Matrix3Xf upright(const Points& points);
+/// The points whose surface stands up (walls, stems), 3 x n. Those without a normal are left out.
+/// Level ground matches itself wherever one puts it and would hide the horizontal offset.
+Eigen::Matrix3Xf upright(const Patches& patches);
 
 /// A grid that remembers where points are: 2 in their cells, 1 in the cells around. Scores how
 /// well other points fit when they are shifted by whole cells, at most `reach` of them.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 namespace cambium::registration {
 namespace {
@@ -15,35 +16,36 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Quality evaluate(const Surface& target, const Points& source, const SE3& T_target_source,
+Quality evaluate(const Surface& target, const Patches& source, const SE3& T_target_source,
                  double distance) {
   Quality quality;
   const Eigen::Matrix3d R = T_target_source.rotation();
   const Eigen::Vector3d t = T_target_source.t;
   Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
   double sum = 0;
-  pcl::Indices near(1);
-  std::vector<float> squared(1);
-  for (const Point& point : source) {
-    const Eigen::Vector3d p_source = point.getVector3fMap().cast<double>();
+  std::size_t planes = 0, near_plane = 0;
+  for (const Patch& patch : source) {
+    const Eigen::Vector3d p_source = patch.at.cast<double>();
     const Eigen::Vector3d p = R * p_source + t;
-    Point query;
-    query.getVector3fMap() = p.cast<float>();
-    if (target.tree->nearestKSearch(query, 1, near, squared) == 0) continue;
-    if (!(squared[0] < distance * distance)) continue;
-    const Point& q = (*target.points)[std::size_t(near[0])];
-    const Eigen::Vector3d n = q.getNormalVector3fMap().cast<double>();
-    const double e = n.dot(p - q.getVector3fMap().cast<double>());
+    const Nearest near = target.index.nearest(p.cast<float>(), float(distance), 0);
+    if (near.index < 0) continue;
+    ++quality.inliers;
+    const Patch& q = target.patches[std::size_t(near.index)];
+    if (q.normal.isZero()) continue;
+    const Eigen::Vector3d n = q.normal.cast<double>();
+    const double e = n.dot(p - q.at.cast<double>());
     Eigen::Matrix<double, 6, 1> J;
     J << n, -(n.transpose() * R * cross_matrix(p_source)).transpose();
     H.selfadjointView<Eigen::Lower>().rankUpdate(J);
     sum += e * e;
-    ++quality.inliers;
+    near_plane += std::abs(e) < 0.1;
+    ++planes;
   }
   quality.normal_equations = H.selfadjointView<Eigen::Lower>();
   if (source.size() == 0 || quality.inliers == 0) return quality;
   quality.overlap = double(quality.inliers) / double(source.size());
-  quality.rmse = std::sqrt(sum / double(quality.inliers));
+  quality.inlier_share = double(near_plane) / double(std::max<std::size_t>(planes, 1));
+  quality.rmse = std::sqrt(sum / double(std::max<std::size_t>(planes, 1)));
   return quality;
 }
 
@@ -64,13 +66,20 @@ Mat6 information(const Quality& quality, const NoiseModel& noise) {
       floor.asDiagonal() * (quality.normal_equations * (independent_share / variance)) *
       floor.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(B);
+  constexpr double unheld = 30;  // [m] standard deviation where nothing holds
+  const double least = std::pow(noise.translation_floor / unheld, 2);
   const Eigen::Matrix<double, 6, 1> held =
-      eigen.eigenvalues().unaryExpr([](double b) { return std::max(b / (1 + b), 1e-6); });
+      eigen.eigenvalues().unaryExpr([&](double b) { return std::max(b / (1 + b), least); });
   const Eigen::Matrix<double, 6, 6> scaled =
       eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose();
   const Eigen::Matrix<double, 6, 1> inverse = floor.cwiseInverse();
   const Eigen::Matrix<double, 6, 6> result = inverse.asDiagonal() * scaled * inverse.asDiagonal();
   return 0.5 * (result + result.transpose());
+}
+
+Vec6 sigmas(const Mat6& information) {
+  const Eigen::Matrix<double, 6, 6> dense = information;
+  return dense.inverse().diagonal().cwiseSqrt();
 }
 
 }  // namespace cambium::registration

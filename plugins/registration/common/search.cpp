@@ -42,13 +42,13 @@ bool distinct(const SE3& a, const SE3& b, const SearchWindow& window) {
 
 }  // namespace
 
-std::vector<SE3> search(const Surface& target, const Points& source, const SE3& guess,
+std::vector<SE3> search(const Surface& target, const Patches& source, const SE3& guess,
                         const SearchWindow& window) {
   if (window.radius <= 0 && window.yaw <= 0) return {guess};
   const Eigen::Matrix3Xf standing_source = upright(source);
   if (standing_source.cols() == 0) return {guess};
   const int across = steps(window.radius, window.step);
-  const Occupancy grid(upright(*target.points), float(window.step),
+  const Occupancy grid(upright(target.patches), float(window.step),
                        {across, across, steps(window.height, window.step)});
   std::vector<Scored> scored;
   const int turns = steps(window.yaw, window.yaw_step);

@@ -21,7 +21,7 @@ struct SearchWindow {
 
 /// The best distinct T_target_source, best first. Never empty: without upright structure, or with
 /// nothing to search, it is the guess itself.
-std::vector<SE3> search(const Surface& target, const Points& source, const SE3& guess,
+std::vector<SE3> search(const Surface& target, const Patches& source, const SE3& guess,
                         const SearchWindow& window);
 
 }  // namespace cambium::registration

@@ -1,39 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cloud made ready for registration: thinned, with a normal per point and a search tree.
+// A cloud made ready for registration: thinned, with a normal per point and a search structure.
 #pragma once
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
+#include <Eigen/Core>
+#include <vector>
 
-#include <memory>
-
-#include "cambium/payload.hpp"
+#include "common/block_index.hpp"
 
 namespace cambium::registration {
 
-using Point = pcl::PointNormal;
-using Points = pcl::PointCloud<Point>;
-using Tree = pcl::search::KdTree<Point>;
+/// A point of a surface, in the base frame. The normal has unit length and is turned towards the
+/// origin (the sensor); it is zero where the points around do not tell a plane.
+struct Patch {
+  Eigen::Vector3f at = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
+};
+using Patches = std::vector<Patch>;
 
-/// Read-only once made; PCL wants pointers to mutable objects but does not write through them when
-/// it is told not to build its own tree.
 struct Surface {
-  Points::Ptr points;  ///< base frame [m]; unit normals, turned towards the origin
-  Tree::Ptr tree;      ///< over `points`; null when there are none
-  std::size_t size() const { return points->size(); }
-  std::size_t bytes() const;
+  Patches patches;
+  BlockIndex index;  ///< over `patches`
+  std::size_t size() const { return patches.size(); }
+  std::size_t bytes() const { return size() * sizeof(Patch) + index.bytes(); }
 };
 
-/// One point per occupied cell of `voxel_size` [m]: the mean of the cell's points. Points that are
-/// not finite are left out: drivers write them for "no return". Ordered by cell, so the result does
-/// not depend on the order of the cloud beyond rounding.
-Points::Ptr thin(const Cloud& cloud, double voxel_size);
+/// Every k-th patch, k the smallest number that leaves at most `limit`: they are ordered by block,
+/// so this thins evenly.
+Patches sample(const Patches& patches, std::size_t limit);
 
-/// Every k-th point, k the smallest number that leaves at most `limit`: `points` are ordered by
-/// cell, so this thins evenly.
-Points::Ptr sample(const Points& points, std::size_t limit);
-
-/// `points` with the normal of the plane through each one's `neighbours` nearest points.
-Surface make_surface(Points::Ptr points, int neighbours);
+/// The thinned points with normals: each that of the plane through the points in the voxels
+/// around, 3 x 3 x 3 of them or up to 9 x 9 x 9 until they hold at least `neighbours` points.
+Surface make_surface(const Thinned& cloud, int neighbours);
 
 }  // namespace cambium::registration

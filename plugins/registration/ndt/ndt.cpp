@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normal distributions transform (Magnusson, thesis 2009) on pcl::NormalDistributionsTransform.
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 #include <pcl/registration/ndt.h>
 
 #include <cmath>
 
-#include "common/coarse_to_fine.hpp"
-#include "common/pcl.hpp"
+#include "common/near_guess.hpp"
+#include "pcl.hpp"
 
 namespace cambium::registration {
 namespace {
 
+using Point = pcl::PointXYZ;
+using Points = pcl::PointCloud<Point>;
 using Pcl = pcl::NormalDistributionsTransform<Point, Point>;
 
-class Ndt final : public CoarseToFine {
+Points::Ptr points_of(const Patches& patches) {
+  auto points = std::make_shared<Points>();
+  for (const Patch& p : patches) points->push_back({p.at.x(), p.at.y(), p.at.z()});
+  return points;
+}
+
+class Ndt final : public NearGuess {
  public:
   void params(ParamVisitor& v) override {
-    CoarseToFine::params(v);
+    NearGuess::params(v);
     v("cell_points", cell_points_,
       "Cell of the distributions as a multiple of the cloud's voxel: about this squared points "
       "each",
@@ -31,17 +41,18 @@ class Ndt final : public CoarseToFine {
   /// run in the object; that costs less than a millisecond, building the distributions many.
   void extend(Level& level, double voxel_size) const override {
     auto ndt = std::make_shared<Pcl>();
-    ndt->setSearchMethodTarget(level.surface.tree, true);  // not used, and so not rebuilt
+    // Not used, and so not built.
+    ndt->setSearchMethodTarget(std::make_shared<pcl::search::KdTree<Point>>(), true);
     ndt->setResolution(float(cell_points_ * voxel_size));
-    ndt->setInputTarget(level.surface.points);
+    ndt->setInputTarget(points_of(level.surface.patches));
     level.extra = ndt;
-    level.extra_bytes = level.surface.size() * 64;
+    level.extra_bytes = level.surface.size() * 80;
   }
 
   std::optional<SE3> refine(const Level& target, const Level& source, const SE3& guess,
                             const Stage& stage) const override {
     Pcl ndt = *std::static_pointer_cast<const Pcl>(target.extra);
-    ndt.setInputSource(source.sample);
+    ndt.setInputSource(points_of(source.sample));
     ndt.setMaximumIterations(stage.max_iterations);
     ndt.setOulierRatio(outlier_ratio_);  // PCL's spelling
     ndt.setStepSize(step_size_ * cell_points_ * stage.voxel_size);

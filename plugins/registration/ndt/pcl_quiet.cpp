@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
 
-#include "common/pcl.hpp"
+#include "pcl.hpp"
 
 namespace cambium::registration {
 
