@@ -6,19 +6,19 @@
 
 namespace cambium::pose_solver {
 
-double project_to_psd(Eigen::Ref<Eigen::MatrixXd> information) {
+Spectrum project_to_psd(Eigen::Ref<Eigen::MatrixXd> information) {
   const Eigen::MatrixXd symmetric = 0.5 * (information + information.transpose());
   information = symmetric;
   // Nearly all are positive definite, which the factorisation tells ten times faster.
   const Eigen::LLT<Eigen::MatrixXd> llt(symmetric);
-  if (llt.info() == Eigen::Success && llt.rcond() > 1e-12) return 0;
+  if (llt.info() == Eigen::Success && llt.rcond() > 1e-12) return {};
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
   const auto& values = eigen.eigenvalues();
   const auto& V = eigen.eigenvectors();
   // Eigenvalues are exact to about 1e-15 of the largest: less than that is rounding, not a sign.
   const bool indefinite = values(0) < -1e-12 * values.cwiseAbs().maxCoeff();
   if (indefinite) information = V * values.cwiseMax(0.0).asDiagonal() * V.transpose();
-  return indefinite ? values(0) : 0;
+  return {indefinite ? values(0) : 0, values(0) <= 1e-12 * values.cwiseAbs().maxCoeff()};
 }
 
 void square_root(const Eigen::Ref<const Eigen::MatrixXd>& information,
