@@ -20,9 +20,13 @@ void require(bool ok, const std::string& factor, const std::string& what) {
 /// Collects what was repaired, so that a file with ten thousand bad matrices gives one warning.
 class Repairs {
  public:
-  void repair(Eigen::Ref<Eigen::MatrixXd> information, const std::string& label) {
+  template <class Information>
+  void repair(Information& information, const std::string& label) {
     require(information.allFinite(), label, "the information matrix is not finite");
-    const Spectrum found = project_to_psd(information);
+    constexpr int n = Information::RowsAtCompileTime;
+    Eigen::Matrix<double, n, n> symmetric = information;
+    const Spectrum found = project_to_psd(symmetric);
+    information = symmetric;
     if (found.negative < 0)
       replaced_.add(fmt::format("{}: smallest eigenvalue {:.3g}", label, found.negative));
     else if (found.singular)

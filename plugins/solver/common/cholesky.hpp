@@ -3,6 +3,7 @@
 // Chen, T. Davis, W. Hager, S. Rajamanickam, ACM TOMS 35(3), 2008).
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 
 #include "common/elimination.hpp"
 
@@ -25,9 +26,14 @@ class Cholesky {
   double condition() const;
 
  private:
+  struct Free {
+    void operator()(double* memory) const;
+  };
+
   const LowerPattern& pattern_;
   mutable CholmodSettings settings_;
   cholmod_factor* factor_ = nullptr;
+  std::unique_ptr<double, Free> values_;  ///< of the factor
 };
 
 }  // namespace cambium::pose_solver

@@ -51,16 +51,16 @@ Elimination::Elimination(const PoseGraph& graph, const std::vector<bool>& held,
 }
 
 // Minimum degree or nested dissection, whichever fills less. Merging small supernodes costs zeros
-// and saves calls of BLAS; these limits, for blocks of six, take 12 to 28 % less time on
-// sphere2500, torus3D and parking-garage than the defaults, which are made for scalars.
+// and saves calls of BLAS; these limits, for blocks of six, were the best for factorising and
+// solving on sphere2500, torus3D and parking-garage. The defaults are made for scalars.
 void Elimination::find_order(const Couplings& couplings) {
   settings_->nmethods = 2;
   settings_->method[0].ordering = CHOLMOD_AMD;
   settings_->method[1].ordering = CHOLMOD_METIS;
   settings_->postorder = 1;  // neighbours in the elimination tree side by side
   settings_->supernodal = CHOLMOD_SUPERNODAL;
-  settings_->nrelax[0] = 2, settings_->nrelax[1] = 6, settings_->nrelax[2] = 16;
-  settings_->zrelax[1] = 0.2, settings_->zrelax[2] = 0.1;
+  settings_->nrelax[0] = 1, settings_->nrelax[1] = 3, settings_->nrelax[2] = 8;
+  settings_->zrelax[1] = 0.2, settings_->zrelax[2] = 0.05;
   const LowerPattern any_order = lower(count_, couplings);
   cholmod_sparse A = view(any_order, nullptr);
   factor_ = cholmod_analyze(&A, settings_);

@@ -6,13 +6,15 @@
 
 namespace cambium::pose_solver {
 
-Spectrum project_to_psd(Eigen::Ref<Eigen::MatrixXd> information) {
-  const Eigen::MatrixXd symmetric = 0.5 * (information + information.transpose());
+template <int N>
+Spectrum project_to_psd(Eigen::Matrix<double, N, N>& information) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const Matrix symmetric = 0.5 * (information + information.transpose());
   information = symmetric;
   // Nearly all are positive definite, which the factorisation tells ten times faster.
-  const Eigen::LLT<Eigen::MatrixXd> llt(symmetric);
+  const Eigen::LLT<Matrix> llt(symmetric);
   if (llt.info() == Eigen::Success && llt.rcond() > 1e-12) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric);
   const auto& values = eigen.eigenvalues();
   const auto& V = eigen.eigenvectors();
   // Eigenvalues are exact to about 1e-15 of the largest: less than that is rounding, not a sign.
@@ -20,6 +22,9 @@ Spectrum project_to_psd(Eigen::Ref<Eigen::MatrixXd> information) {
   if (indefinite) information = V * values.cwiseMax(0.0).asDiagonal() * V.transpose();
   return {indefinite ? values(0) : 0, values(0) <= 1e-12 * values.cwiseAbs().maxCoeff()};
 }
+
+template Spectrum project_to_psd(Eigen::Matrix3d&);
+template Spectrum project_to_psd(Eigen::Matrix<double, 6, 6>&);
 
 void square_root(const Eigen::Ref<const Eigen::MatrixXd>& information,
                  Eigen::Ref<Eigen::MatrixXd> U) {

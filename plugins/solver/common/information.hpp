@@ -13,7 +13,8 @@ struct Spectrum {
 
 /// The nearest positive semi-definite matrix (Frobenius norm; Higham 1988): the symmetric part with
 /// its negative eigenvalues set to zero.
-Spectrum project_to_psd(Eigen::Ref<Eigen::MatrixXd> information);
+template <int N>
+Spectrum project_to_psd(Eigen::Matrix<double, N, N>& information);
 
 /// Writes U with U' U = information (symmetric, positive semi-definite), so that |U r|^2 is
 /// r' Omega r. A Cholesky factor Omega = L L' gives U = L', not L.

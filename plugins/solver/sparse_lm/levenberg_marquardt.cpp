@@ -2,6 +2,7 @@
 #include "levenberg_marquardt.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "damping.hpp"
 #include "model.hpp"
@@ -11,7 +12,8 @@ namespace {
 
 using namespace pose_solver;
 
-/// When a step lowered the cost by less than this fraction, H is nearly what it was.
+/// H is nearly what it was when a step lowered the cost by less than this fraction, or by what its
+/// model said up to that.
 constexpr double little = 0.03;
 
 /// A structure for more factors than there are costs fill; a new one costs an ordering.
@@ -86,7 +88,7 @@ Minimum LevenbergMarquardt::run(const std::vector<SE3>& start, const Weights& we
       now = std::move(next);
       out.cost -= decrease;
       out.converged = progress.done(decrease, out.cost);
-      near = decrease < little * out.cost;
+      near = decrease < little * out.cost || std::abs(decrease - predicted) < little * predicted;
       linearized = false;
     } else if (regular && predicted <= limits.tolerance * out.cost) {
       out.converged = true;  // what is left is rounding
