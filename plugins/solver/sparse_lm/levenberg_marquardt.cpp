@@ -2,7 +2,6 @@
 #include "levenberg_marquardt.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "damping.hpp"
 #include "model.hpp"
@@ -12,8 +11,7 @@ namespace {
 
 using namespace pose_solver;
 
-/// H is nearly what it was when a step lowered the cost by less than this fraction, or by what its
-/// model said up to that.
+/// When a step lowered the cost by less than this fraction, H is nearly what it was.
 constexpr double little = 0.03;
 
 /// A structure for more factors than there are costs fill; a new one costs an ordering.
@@ -88,7 +86,7 @@ Minimum LevenbergMarquardt::run(const std::vector<SE3>& start, const Weights& we
       now = std::move(next);
       out.cost -= decrease;
       out.converged = progress.done(decrease, out.cost);
-      near = decrease < little * out.cost || std::abs(decrease - predicted) < little * predicted;
+      near = decrease < little * out.cost;
       linearized = false;
     } else if (regular && predicted <= limits.tolerance * out.cost) {
       out.converged = true;  // what is left is rounding
