@@ -39,9 +39,10 @@ class Repairs {
           "positive semi-definite matrix (check the order and the sign of the terms):{}",
           replaced_.count(), replaced_.text()));
     if (singular_.count() > 0)
-      context.warn(fmt::format("{} information matrices are singular; they leave a direction of "
-                               "their poses to other factors:{}",
-                               singular_.count(), singular_.text()));
+      context.warn(
+          fmt::format("{} information matrices are singular; they leave a direction of "
+                      "their poses to other factors:{}",
+                      singular_.count(), singular_.text()));
   }
 
  private:

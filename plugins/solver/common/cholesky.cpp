@@ -26,7 +26,7 @@ void Cholesky::Free::operator()(double* memory) const { std::free(memory); }
 
 Cholesky::Cholesky(const Elimination& elimination, int block, const LowerPattern& pattern)
     : pattern_(pattern), factor_(elimination.symbolic_factor(block, settings_)) {
-  if (!factor_) return;
+  if (!factor_ || !factor_->is_super) return;
   values_.reset(huge(factor_->xsize));
   if (!values_) return;
   factor_->x = values_.get();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/chordal.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "common/block_matrix.hpp"
 #include "common/cholesky.hpp"
@@ -40,6 +43,21 @@ bool solve(const Elimination& elimination, const BlockMatrix<N>& H, Eigen::Matri
   return b.allFinite();
 }
 
+/// The nearest rotation: Newton's iteration for the polar decomposition (Higham 1986), as long as
+/// the determinant is positive, which it is but for nonsense; else by singular values.
+Quat nearest_rotation(const Matrix3d& A) {
+  Matrix3d R = A / std::cbrt(std::abs(A.determinant()));
+  for (int k = 0; k < 20 && R.allFinite() && R.determinant() > 0; ++k) {
+    const Matrix3d next = 0.5 * (R + R.inverse().transpose());
+    const double change = (next - R).cwiseAbs().maxCoeff();
+    R = next;
+    if (change < 1e-14) return Quat(Eigen::Quaterniond(R)).normalized();
+  }
+  Mat4 T = Mat4::Identity();
+  T.topLeftCorner<3, 3>() = A;
+  return SE3::from_matrix(T).q;
+}
+
 /// With M = R^T a factor reads M_head = R_tail_head^T M_tail, and the three columns of M are free
 /// of each other: one system, three right hand sides.
 bool relax_rotations(const std::vector<Link>& links, const Elimination& elimination,
@@ -61,9 +79,7 @@ bool relax_rotations(const std::vector<Link>& links, const Elimination& eliminat
   if (!solve(elimination, H, M)) return false;
   for (std::size_t n = 0; n < poses.size(); ++n) {
     if (elimination.place(n) < 0) continue;
-    Mat4 T = Mat4::Identity();
-    T.topLeftCorner<3, 3>() = M.middleRows<3>(3 * elimination.place(n)).transpose();
-    poses[n].q = SE3::from_matrix(T).q;
+    poses[n].q = nearest_rotation(M.middleRows<3>(3 * elimination.place(n)).transpose());
   }
   return true;
 }

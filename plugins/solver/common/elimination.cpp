@@ -50,20 +50,27 @@ Elimination::Elimination(const PoseGraph& graph, const std::vector<bool>& held,
   pattern_ = lower(count_, couplings());
 }
 
-// Minimum degree or nested dissection, whichever fills less. Merging small supernodes costs zeros
-// and saves calls of BLAS; these limits, for blocks of six, were the best for factorising and
-// solving on sphere2500, torus3D and parking-garage. The defaults are made for scalars.
+// Minimum degree, or nested dissection when that fills less; it takes five times as long to find,
+// which pays when factors are expensive. Merging small supernodes costs zeros and saves calls of
+// BLAS; these limits, for blocks of six, were the best for factorising and solving on sphere2500,
+// torus3D and parking-garage. The defaults are made for scalars.
 void Elimination::find_order(const Couplings& couplings) {
-  settings_->nmethods = 2;
-  settings_->method[0].ordering = CHOLMOD_AMD;
-  settings_->method[1].ordering = CHOLMOD_METIS;
+  constexpr double expensive = 1000;  // multiplications of blocks per pose
+  settings_->nmethods = 1;
   settings_->postorder = 1;  // neighbours in the elimination tree side by side
   settings_->supernodal = CHOLMOD_SUPERNODAL;
   settings_->nrelax[0] = 1, settings_->nrelax[1] = 3, settings_->nrelax[2] = 8;
   settings_->zrelax[1] = 0.2, settings_->zrelax[2] = 0.05;
   const LowerPattern any_order = lower(count_, couplings);
   cholmod_sparse A = view(any_order, nullptr);
+  settings_->method[0].ordering = CHOLMOD_AMD;
   factor_ = cholmod_analyze(&A, settings_);
+  if (const double cost = settings_->fl; factor_ && cost > expensive * count_) {
+    settings_->method[0].ordering = CHOLMOD_METIS;
+    cholmod_factor* other = cholmod_analyze(&A, settings_);
+    if (other && settings_->fl < cost) std::swap(factor_, other);
+    cholmod_free_factor(&other, settings_);
+  }
   if (!factor_) return;
   std::vector<int> turn(static_cast<std::size_t>(count_));
   for (int k = 0; k < count_; ++k) turn[std::size_t(static_cast<const int*>(factor_->Perm)[k])] = k;
@@ -79,9 +86,14 @@ cholmod_factor* Elimination::symbolic_factor(int block, cholmod_common* common) 
   if (!factor_ || factor_->xsize > largest / (b * b)) return nullptr;
   cholmod_factor* out = cholmod_allocate_factor(b * factor_->n, common);
   if (!out) return nullptr;
+  out->ordering = CHOLMOD_NATURAL;  // places are in the order of elimination: Perm is the identity
+  if (block == 1) {                 // supernodes of a few numbers do not pay
+    std::copy_n(static_cast<const int*>(factor_->ColCount), factor_->n,
+                static_cast<int*>(out->ColCount));
+    return out;
+  }
   const auto times = [](int k) { return [k](int i) { return k * i; }; };
   const std::size_t supernodes = factor_->nsuper;
-  out->ordering = CHOLMOD_NATURAL;  // places are in the order of elimination: Perm is the identity
   out->is_ll = out->is_super = 1;
   out->nsuper = supernodes;
   out->ssize = b * factor_->ssize;

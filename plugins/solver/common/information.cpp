@@ -13,7 +13,8 @@ Spectrum project_to_psd(Eigen::Matrix<double, N, N>& information) {
   information = symmetric;
   // Nearly all are positive definite, which the factorisation tells ten times faster.
   const Eigen::LLT<Matrix> llt(symmetric);
-  if (llt.info() == Eigen::Success && llt.rcond() > 1e-12) return {};
+  const auto pivots = llt.matrixLLT().diagonal();
+  if (llt.info() == Eigen::Success && pivots.minCoeff() > 1e-6 * pivots.maxCoeff()) return {};
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric);
   const auto& values = eigen.eigenvalues();
   const auto& V = eigen.eigenvectors();

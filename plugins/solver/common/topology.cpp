@@ -44,9 +44,10 @@ void warn_of_copies(const PoseGraph& graph, const Context& context) {
       }
   }
   if (copies.count() > 0)
-    context.warn(fmt::format("{} factors repeat another one to the last digit; each counts, so "
-                             "the measurement has the weight of several (keep one):{}",
-                             copies.count(), copies.text()));
+    context.warn(
+        fmt::format("{} factors repeat another one to the last digit; each counts, so "
+                    "the measurement has the weight of several (keep one):{}",
+                    copies.count(), copies.text()));
 }
 
 }  // namespace
@@ -64,9 +65,10 @@ void warn_of_topology(const PoseGraph& graph, const std::vector<std::size_t>& co
                             i < graph.ids.size() ? graph.ids[i] : NodeId(i),
                             nodes[component[i]] - 1));
   if (loose.count() > 0)
-    context.warn(fmt::format("{} parts of the graph are tied to nothing; each keeps its first node "
-                             "where it was given:{}",
-                             loose.count(), loose.text()));
+    context.warn(
+        fmt::format("{} parts of the graph are tied to nothing; each keeps its first node "
+                    "where it was given:{}",
+                    loose.count(), loose.text()));
 }
 
 }  // namespace cambium::pose_solver
