@@ -17,6 +17,7 @@ class DampedSystem {
   /// Looks at the equations' H and g as they are now. `near`: they have changed little since the
   /// last call. False: not positive definite.
   bool solve(double damping, bool near, Eigen::VectorXd& d);
+  bool factored() const { return factored_; }  ///< some H has been
   /// What the model F + 2 g'd + d'Hd loses by that step.
   double predicted_decrease(double damping, const Eigen::VectorXd& d) const;
 

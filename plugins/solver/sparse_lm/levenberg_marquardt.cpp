@@ -14,8 +14,9 @@ using namespace pose_solver;
 /// When a step lowered the cost by less than this fraction, H is nearly what it was.
 constexpr double little = 0.03;
 
-/// A structure for more factors than there are costs fill; a new one costs an ordering.
-constexpr double enough_of_them = 0.8;
+/// A structure for more factors than there are costs fill; a new one costs an ordering. Without the
+/// last 2 % of 1000 false loops a factorisation of sphere2500 takes half the time.
+constexpr double enough_of_them = 0.97;
 
 /// Whether the cost will not fall by `tolerance` any more. Near the minimum the decreases shrink
 /// geometrically at least, so the last two tell the sum of those to come.
@@ -68,7 +69,8 @@ Minimum LevenbergMarquardt::run(const std::vector<SE3>& start, const Weights& we
   Minimum out{{}, 0, false, "reached the limit of iterations", model.cost(now)};
   Damping damping;
   Progress progress(limits.tolerance);
-  bool linearized = false, near = false;
+  // After a factorisation this is a run of many, each near the last one.
+  bool linearized = false, near = system.factored();
   while (!out.converged && out.iterations < limits.iterations) {
     context.check_cancelled();
     if (!linearized) model.linearize(now);
