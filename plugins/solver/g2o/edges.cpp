@@ -14,8 +14,8 @@ SE3 from_isometry(const g2o::Isometry3& T) {
   return {Quat(Eigen::Quaterniond(T.linear())).normalized(), T.translation()};
 }
 
-g2o::Matrix6 for_vec_q(const Mat6& information) {
-  g2o::Matrix6 out = information;
+Eigen::Matrix<double, 6, 6> for_vec_q(const Mat6& information) {
+  Eigen::Matrix<double, 6, 6> out = information;
   out.bottomRows<3>() *= 2;
   out.rightCols<3>() *= 2;
   return out;

@@ -15,7 +15,7 @@ namespace cambium::g2o_solver {
 
 g2o::Isometry3 to_isometry(const SE3& T);
 SE3 from_isometry(const g2o::Isometry3& T);
-g2o::Matrix6 for_vec_q(const Mat6& information);
+Eigen::Matrix<double, 6, 6> for_vec_q(const Mat6& information);
 
 class Kernel final : public g2o::RobustKernel {
  public:
