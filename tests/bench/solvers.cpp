@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every solver on every well-known pose graph:
 //   bench_solvers [--peers PYTHON] POSE_GRAPHS [NAME=YAML]...
+//   bench_solvers --growth [NAME=YAML]...
 // POSE_GRAPHS is the unpacked archive with REFERENCE.json. Without names: every solver, its
-// defaults. --peers adds GTSAM by gtsam_peer.py, run by that interpreter, in the same run. Pin the
-// whole to one core (taskset -c 0); the seconds are those of the CPU.
+// defaults, those of GTSAM and g2o too when their plugins were built. --peers adds GTSAM by
+// gtsam_peer.py, run by that interpreter, in the same run. Pin the whole to one core (taskset -c
+// 0); the seconds are those of the CPU.
 #include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "cambium/dialect.hpp"
 #include "cambium/files.hpp"
+#include "growth.hpp"
 #include "plugins/loader.hpp"
-#include "support/pose_graph.hpp"
 #include "support/places.hpp"
+#include "support/pose_graph.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -73,8 +76,15 @@ int run(int argc, char** argv) {
     python = arguments[1];
     arguments.erase(arguments.begin(), arguments.begin() + 2);
   }
+  if (!arguments.empty() && arguments[0] == "--growth") {
+    arguments.erase(arguments.begin());
+    return bench_growth(entries(arguments)), 0;
+  }
   if (arguments.empty())
-    return std::fputs("usage: bench_solvers [--peers PYTHON] POSE_GRAPHS [NAME=YAML]...\n", stderr),
+    return std::fputs(
+               "usage: bench_solvers [--peers PYTHON] POSE_GRAPHS [NAME=YAML]...\n"
+               "       bench_solvers --growth [NAME=YAML]...\n",
+               stderr),
            2;
   const std::filesystem::path folder = arguments[0];
   arguments.erase(arguments.begin());

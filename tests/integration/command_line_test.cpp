@@ -59,6 +59,9 @@ TEST(CommandLine, ShippedPipelinesAreValid) {
 }
 
 TEST(CommandLine, GeneratedFilesAreThoseOfThePlugins) {
+  for (const char* adapter : {"gtsam_solver.so", "g2o_solver.so"})
+    if (fs::exists(plugin_folder() / adapter))
+      GTEST_SKIP() << adapter << " was built; the generated files are those of a build without it";
   const char* hint = "run: ./bootstrap generate";
   EXPECT_EQ(run_cambium({"schema"}).out, read_file(source("schemas/pipeline.schema.json"))) << hint;
   EXPECT_EQ(run_cambium({"plugins", "describe"}).out, read_file(source("docs/reference.md"))) << hint;

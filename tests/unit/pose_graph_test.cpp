@@ -78,12 +78,20 @@ TEST(Cost, TakesTheInformationTranslationFirst) {
   const double* term = terms;
   for (int row = 0; row < 6; ++row)
     for (int col = row; col < 6; ++col) information(row, col) = information(col, row) = *term++;
+  information.diagonal().array() += 200;  // positive definite
   PoseGraph g = two_nodes(T_map_tail * T_tail_head);
   g.relative[0].information = information;
   g.T_map_node[1].t += T_map_tail.q * Vec3(2, 0, 0);  // r = (2 0 0 0 0 2 sin(0.1))
   g.T_map_node[1].q = g.T_map_node[1].q * Quat(std::cos(0.1), 0, 0, std::sin(0.1));
   const double x = 2, c = 2 * std::sin(0.1);
-  EXPECT_NEAR(cost(g, g.T_map_node), 0 * x * x + 2 * 50 * x * c + 5 * c * c, 1e-12);
+  EXPECT_NEAR(cost(g, g.T_map_node), 200 * x * x + 2 * 50 * x * c + 205 * c * c, 1e-11);
+}
+
+TEST(Cost, IsNeverNegative) {
+  PoseGraph g = two_nodes(T_map_tail * T_tail_head);
+  g.relative[0].information(1, 1) = -4;
+  g.T_map_node[1].t += T_map_tail.q * Vec3(3, 0.5, 0);
+  EXPECT_NEAR(cost(g, g.T_map_node), 9, 1e-13);  // as if the term were 0
 }
 
 TEST(Cost, AddsEveryKindOfFactor) {

@@ -96,6 +96,7 @@ std::string_view Fields::word() {
 
 double Fields::number() {
   const std::string_view text = word();
+  if (text.size() == 1 && text[0] >= '0' && text[0] <= '9') return text[0] - '0';  // most of them
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   double value = 0;
   const auto [end, error] = std::from_chars(text.data() + plus, text.data() + text.size(), value);
@@ -127,10 +128,9 @@ void Fields::expect(int count, int or_count) const {
 }
 
 int Fields::count() const {
-  std::string_view text = line_;
-  int n = 0;
-  for (skip_blanks(text); !text.empty(); skip_blanks(text), ++n)
-    text.remove_prefix(word_length(text));
+  int n = !line_.empty() && !is_blank(line_[0]);
+  for (std::size_t i = 1; i < line_.size(); ++i)  // first characters of words, without branches
+    n += int(is_blank(line_[i - 1])) & int(!is_blank(line_[i]));
   return n;
 }
 

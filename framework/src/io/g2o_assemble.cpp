@@ -81,10 +81,10 @@ void G2oParser::mark_fixed() {
 }
 
 void G2oParser::check_edges() {
-  std::vector<Edge> own;
-  own.reserve(mission_.edges.size());
-  for (std::size_t k = 0; k < mission_.edges.size(); ++k) {
-    Edge& edge = mission_.edges[k];
+  auto& edges = mission_.edges;
+  std::size_t own = 0;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    Edge& edge = edges[k];
     if (belongs_to_another_robot(edge)) {
       warnings_.add(edge.line,
                     "the edge leads to another robot's vertex, which is not in this file; "
@@ -92,9 +92,10 @@ void G2oParser::check_edges() {
       keep(edge_text_[k], edge.line);
       continue;
     }
-    own.push_back(std::move(edge));
+    if (own != k) edges[own] = std::move(edge);
+    ++own;
   }
-  mission_.edges = std::move(own);
+  edges.resize(own);
 }
 
 // Each file of a distributed graph also holds the edges to its partners' vertices.

@@ -27,7 +27,8 @@ class Chain {
   }
   template <class Matrix>
   void matrix(const Matrix& m) {
-    for (Eigen::Index i = 0; i < m.size(); ++i) number(m.data()[i]);
+    block_.append(reinterpret_cast<const char*>(m.data()), sizeof(double) * std::size_t(m.size()));
+    if (block_.size() >= block_bytes) close_block();
   }
   void stamp(const Stamp& stamp) {
     number(stamp.sec);

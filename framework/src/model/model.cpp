@@ -17,6 +17,9 @@ void Context::check_cancelled() const {
 }
 
 std::optional<std::size_t> Mission::index_of(NodeId id) const {
+  if (nodes.empty()) return std::nullopt;
+  const auto after_first = std::uint64_t(id) - std::uint64_t(nodes.front().id);
+  if (after_first < nodes.size() && nodes[after_first].id == id) return after_first;  // no gaps
   const auto it = std::lower_bound(nodes.begin(), nodes.end(), id,
                                    [](const Node& n, NodeId value) { return n.id < value; });
   if (it == nodes.end() || it->id != id) return std::nullopt;

@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cambium/pose_graph.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <numeric>
 
 namespace cambium {
+namespace {
+
+/// r' Omega r. Of an indefinite Omega the nearest positive semi-definite matrix counts, as it does
+/// for solvers: a cost is never negative.
+template <class Matrix, class Vector>
+double squared(const Matrix& information, const Vector& r) {
+  constexpr int n = Matrix::RowsAtCompileTime;
+  const Eigen::Matrix<double, n, n> Omega = 0.5 * (information + information.transpose());
+  if (Omega.llt().info() == Eigen::Success) return r.dot(information * r);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> eigen(Omega);
+  const Eigen::Matrix<double, n, 1> along = eigen.eigenvectors().transpose() * r;
+  return along.cwiseAbs2().dot(eigen.eigenvalues().cwiseMax(0.0));
+}
+
+}  // namespace
 
 Vec6 residual(const SE3& T_tail_head, const SE3& T_map_tail, const SE3& T_map_head) {
   // Files give quaternions to six digits; the residual is that of the rotation they stand for.
@@ -22,7 +39,7 @@ double cost(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
   for (std::size_t k = 0; k < graph.relative.size(); ++k) {
     const auto& f = graph.relative[k];
     const Vec6 r = residual(f.T_tail_head, T_map_node[f.tail], T_map_node[f.head]);
-    F += (weight.empty() ? 1.0 : weight[k]) * r.dot(f.information * r);
+    F += (weight.empty() ? 1.0 : weight[k]) * squared(f.information, r);
   }
   for (const auto& f : graph.attitude) {
     const Vec3 up = T_map_node[f.node].q.normalized().conjugate() * Vec3::UnitZ();
@@ -31,11 +48,11 @@ double cost(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
   }
   for (const auto& f : graph.priors) {
     const Vec6 r = residual(f.T_map_node, SE3{}, T_map_node[f.node]);
-    F += r.dot(f.information * r);
+    F += squared(f.information, r);
   }
   for (const auto& f : graph.positions) {
     const Vec3 r = T_map_node[f.node].t - f.t_map;
-    F += r.dot(f.information * r);
+    F += squared(f.information, r);
   }
   return F;
 }

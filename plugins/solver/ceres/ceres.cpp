@@ -42,8 +42,8 @@ ceres::Solver::Options options_for(const pose_solver::Limits& limits) {
 
 class CeresMinimizer final : public pose_solver::Minimizer {
  public:
-  CeresMinimizer(const PoseGraph& graph, const std::vector<bool>& held)
-      : graph_(graph), held_(held) {}
+  explicit CeresMinimizer(const pose_solver::Problem& problem)
+      : graph_(problem.graph), held_(problem.held) {}
 
   pose_solver::Minimum run(const std::vector<SE3>& start, const pose_solver::Weights& weights,
                            const pose_solver::Loss& loss, const pose_solver::Limits& limits,
@@ -57,7 +57,8 @@ class CeresMinimizer final : public pose_solver::Minimizer {
     context.debug(summary.FullReport());
     context.check_cancelled();
     return {pose_problem.poses(), int(summary.iterations.size()) - 1,
-            summary.termination_type == ceres::CONVERGENCE, summary.message};
+            summary.termination_type == ceres::CONVERGENCE, summary.message,
+            2 * (summary.final_cost - summary.fixed_cost)};
   }
 
  private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem.hpp"
 
+#include <cmath>
+
 namespace cambium::ceres_solver {
 namespace {
 
@@ -18,7 +20,8 @@ ceres::Problem::Options problem_options() {
 PoseProblem::PoseProblem(const PoseGraph& graph, const std::vector<SE3>& start,
                          const std::vector<bool>& held, const pose_solver::Weights& weights,
                          const pose_solver::Loss& loss)
-    : loss_(loss.robust() ? std::make_unique<CeresLoss>(loss) : nullptr),
+    : kind_(loss),
+      loss_(loss.robust() && !loss.switchable() ? std::make_unique<CeresLoss>(loss) : nullptr),
       problem_(problem_options()) {
   blocks_.reserve(start.size());
   for (const SE3& T : start) blocks_.push_back(to_block(T));
@@ -26,7 +29,7 @@ PoseProblem::PoseProblem(const PoseGraph& graph, const std::vector<SE3>& start,
     problem_.AddParameterBlock(blocks_[i].data(), 7, &manifold_);
     if (held[i]) problem_.SetParameterBlockConstant(blocks_[i].data());
   }
-  add_relative(graph, weights.relative);
+  add_relative(graph, held, weights.relative);
   add_absolute(graph, weights.positions);
 }
 
@@ -37,12 +40,24 @@ std::vector<SE3> PoseProblem::poses() const {
   return out;
 }
 
-void PoseProblem::add_relative(const PoseGraph& graph, const std::vector<double>& weight) {
+void PoseProblem::add(const ceres::CostFunction& cost, bool robust, std::vector<double*> blocks) {
+  const ceres::CostFunction* added = &cost;
+  if (robust && kind_.switchable()) {
+    added = &switchable_.emplace_back(cost, std::sqrt(kind_.width_squared()));
+    blocks.push_back(&switches_.emplace_back(1.0));
+  }
+  problem_.AddResidualBlock(const_cast<ceres::CostFunction*>(added), robust ? loss_.get() : nullptr,
+                            blocks);
+}
+
+void PoseProblem::add_relative(const PoseGraph& graph, const std::vector<bool>& held,
+                               const std::vector<double>& weight) {
   for (std::size_t k = 0; k < graph.relative.size(); ++k) {
     const auto& f = graph.relative[k];
-    if (f.tail == f.head || weight[k] == 0) continue;  // constant: no pose moves it
-    problem_.AddResidualBlock(&relative_.emplace_back(f.T_tail_head, f.information, weight[k]),
-                              loss_for(f.robust), blocks_[f.tail].data(), blocks_[f.head].data());
+    const bool moves = f.tail != f.head && !(held[f.tail] && held[f.head]);
+    if (!moves || weight[k] == 0) continue;
+    add(relative_.emplace_back(f.T_tail_head, f.information, weight[k]), f.robust,
+        {blocks_[f.tail].data(), blocks_[f.head].data()});
   }
 }
 
@@ -52,15 +67,13 @@ void PoseProblem::add_absolute(const PoseGraph& graph, const std::vector<double>
     problem_.SetParameterBlockConstant(origin_.data());
   }
   for (const auto& f : graph.priors)
-    problem_.AddResidualBlock(&relative_.emplace_back(f.T_map_node, f.information, 1.0), nullptr,
-                              origin_.data(), blocks_[f.node].data());
+    add(relative_.emplace_back(f.T_map_node, f.information, 1.0), false,
+        {origin_.data(), blocks_[f.node].data()});
   for (const auto& f : graph.attitude)
-    problem_.AddResidualBlock(&attitude_.emplace_back(f), nullptr, blocks_[f.node].data());
-  for (std::size_t k = 0; k < graph.positions.size(); ++k) {
-    const auto& f = graph.positions[k];
-    problem_.AddResidualBlock(&positions_.emplace_back(f, position_weight[k]), loss_for(f.robust),
-                              blocks_[f.node].data());
-  }
+    add(attitude_.emplace_back(f), false, {blocks_[f.node].data()});
+  for (std::size_t k = 0; k < graph.positions.size(); ++k)
+    if (const auto& f = graph.positions[k]; position_weight[k] != 0)
+      add(positions_.emplace_back(f, position_weight[k]), f.robust, {blocks_[f.node].data()});
 }
 
 }  // namespace cambium::ceres_solver

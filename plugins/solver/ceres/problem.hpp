@@ -11,6 +11,7 @@
 #include "common/loss.hpp"
 #include "common/weights.hpp"
 #include "factors.hpp"
+#include "switchable.hpp"
 
 namespace cambium::ceres_solver {
 
@@ -32,10 +33,13 @@ class PoseProblem {
   std::vector<SE3> poses() const;
 
  private:
-  ceres::LossFunction* loss_for(bool robust) { return robust ? loss_.get() : nullptr; }
-  void add_relative(const PoseGraph& graph, const std::vector<double>& weight);
+  /// A factor that the loss applies to when it is robust, or its switch.
+  void add(const ceres::CostFunction& cost, bool robust, std::vector<double*> blocks);
+  void add_relative(const PoseGraph& graph, const std::vector<bool>& held,
+                    const std::vector<double>& weight);
   void add_absolute(const PoseGraph& graph, const std::vector<double>& position_weight);
 
+  pose_solver::Loss kind_;
   std::unique_ptr<CeresLoss> loss_;  ///< none: all factors count by their squares
   PoseManifold manifold_;
   PoseBlock origin_ = to_block(SE3{});  ///< the map frame, the tail of every prior
@@ -43,6 +47,8 @@ class PoseProblem {
   std::deque<RelativeCost> relative_;
   std::deque<AttitudeCost> attitude_;
   std::deque<PositionCost> positions_;
+  std::deque<SwitchableCost> switchable_;
+  std::deque<double> switches_;
   ceres::Problem problem_;  ///< last: destroyed before what it points to
 };
 

@@ -5,60 +5,68 @@
 
 namespace cambium::pose_solver {
 
-BlockMatrix::BlockMatrix(int blocks, const std::vector<std::pair<int, int>>& couplings)
-    : rows_(static_cast<std::size_t>(blocks)) {
-  for (const auto& [row, column] : couplings) rows_[std::size_t(column)].push_back(row);
-  auto& start = pattern_.column_start;
-  for (int c = 0; c < blocks; ++c) {
-    auto& rows = rows_[std::size_t(c)];
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    for (int k = 0; k < 6; ++k) {
-      start.push_back(int(pattern_.row.size()));
-      for (int r = k; r < 6; ++r) pattern_.row.push_back(6 * c + r);
-      for (const int block : rows)
-        for (int r = 0; r < 6; ++r) pattern_.row.push_back(6 * block + r);
+template <int N>
+BlockMatrix<N>::BlockMatrix(const Elimination& elimination) : blocks_(elimination.pattern()) {
+  const std::size_t count = blocks_.row.size();
+  pattern_.column_start.reserve(std::size_t(N * blocks_.size()) + 1);
+  pattern_.row.reserve(N * N * count);
+  for (int c = 0; c < blocks_.size(); ++c) {
+    const int begin = blocks_.column_start[std::size_t(c)];
+    const int end = blocks_.column_start[std::size_t(c) + 1];
+    for (int k = 0; k < N; ++k) {
+      pattern_.column_start.push_back(int(pattern_.row.size()));
+      for (int r = k; r < N; ++r) pattern_.row.push_back(N * c + r);
+      for (int b = begin + 1; b < end; ++b)
+        for (int r = 0; r < N; ++r) pattern_.row.push_back(N * blocks_.row[std::size_t(b)] + r);
     }
   }
-  start.push_back(int(pattern_.row.size()));
+  pattern_.column_start.push_back(int(pattern_.row.size()));
   values_.assign(pattern_.row.size(), 0.0);
 }
 
-BlockMatrix::Slot BlockMatrix::slot(int row, int column) const {
-  const auto& rows = rows_[std::size_t(column)];
-  return {column, int(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin())};
+template <int N>
+typename BlockMatrix<N>::Slot BlockMatrix<N>::slot(int a, int b) const {
+  const int column = std::min(a, b), row = std::max(a, b);
+  const auto first = blocks_.row.begin() + blocks_.column_start[std::size_t(column)] + 1;
+  const auto last = blocks_.row.begin() + blocks_.column_start[std::size_t(column) + 1];
+  return {column, int(std::lower_bound(first, last, row) - first)};
 }
 
-void BlockMatrix::add_diagonal(int block, const Block& value) {
-  for (int k = 0; k < 6; ++k) {
-    double* column = values_.data() + pattern_.column_start[std::size_t(6 * block + k)];
-    for (int r = k; r < 6; ++r) column[r - k] += value(r, k);
+template <int N>
+void BlockMatrix<N>::add_diagonal(int block, const Block& value) {
+  for (int k = 0; k < N; ++k) {
+    double* column = values_.data() + pattern_.column_start[std::size_t(N * block + k)];
+    for (int r = k; r < N; ++r) column[r - k] += value(r, k);
   }
 }
 
-void BlockMatrix::add(Slot slot, const Block& value) {
-  for (int k = 0; k < 6; ++k) {
-    double* column = values_.data() + pattern_.column_start[std::size_t(6 * slot.column + k)] +
-                     (6 - k) + 6 * slot.index;
-    for (int r = 0; r < 6; ++r) column[r] += value(r, k);
+template <int N>
+void BlockMatrix<N>::add(Slot slot, const Block& value) {
+  for (int k = 0; k < N; ++k) {
+    double* column = values_.data() + pattern_.column_start[std::size_t(N * slot.column + k)] +
+                     (N - k) + N * slot.index;
+    for (int r = 0; r < N; ++r) column[r] += value(r, k);
   }
 }
 
-Eigen::VectorXd BlockMatrix::diagonal() const {
+template <int N>
+Eigen::VectorXd BlockMatrix<N>::diagonal() const {
   Eigen::VectorXd out(pattern_.size());
   for (int c = 0; c < pattern_.size(); ++c)
     out[c] = values_[std::size_t(pattern_.column_start[std::size_t(c)])];
   return out;
 }
 
-std::vector<double> BlockMatrix::damped(const Eigen::VectorXd& scale, double factor) const {
+template <int N>
+std::vector<double> BlockMatrix<N>::damped(const Eigen::VectorXd& scale, double factor) const {
   std::vector<double> out = values_;
   for (int c = 0; c < pattern_.size(); ++c)
     out[std::size_t(pattern_.column_start[std::size_t(c)])] += factor * scale[c];
   return out;
 }
 
-Eigen::VectorXd BlockMatrix::operator*(const Eigen::VectorXd& x) const {
+template <int N>
+Eigen::VectorXd BlockMatrix<N>::operator*(const Eigen::VectorXd& x) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
   for (int c = 0; c < pattern_.size(); ++c) {
     const int begin = pattern_.column_start[std::size_t(c)];
@@ -73,5 +81,9 @@ Eigen::VectorXd BlockMatrix::operator*(const Eigen::VectorXd& x) const {
   }
   return y;
 }
+
+template class BlockMatrix<1>;  // positions
+template class BlockMatrix<3>;  // rotations
+template class BlockMatrix<6>;  // poses
 
 }  // namespace cambium::pose_solver

@@ -1,42 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A symmetric matrix of 6 x 6 blocks, one row of blocks an unknown pose. Only the lower triangle is
+// A symmetric matrix of N x N blocks, one row of blocks an unknown pose. Only the lower triangle is
 // kept, in the compressed columns that the Cholesky factorisation reads.
 #pragma once
-#include <utility>
+#include <Eigen/Core>
 
-#include "common/cholesky.hpp"
+#include "common/elimination.hpp"
 
 namespace cambium::pose_solver {
 
-using Block = Eigen::Matrix<double, 6, 6>;
-
+template <int N>
 class BlockMatrix {
  public:
+  using Block = Eigen::Matrix<double, N, N>;
   /// Where an off-diagonal block stands: below the diagonal of `column`, the `index`-th.
   struct Slot {
     int column = 0, index = 0;
   };
 
-  /// `couplings` (row > column) may repeat.
-  BlockMatrix(int blocks, const std::vector<std::pair<int, int>>& couplings);
+  /// Zero, with the blocks of `elimination`, which must outlive it.
+  explicit BlockMatrix(const Elimination& elimination);
 
-  Slot slot(int row, int column) const;
+  /// Of the places of two poses, either order.
+  Slot slot(int a, int b) const;
   void set_zero() { values_.assign(values_.size(), 0.0); }
   void add_diagonal(int block, const Block& value);  ///< symmetric
   void add(Slot slot, const Block& value);
 
   const LowerPattern& pattern() const { return pattern_; }
   const std::vector<double>& values() const { return values_; }
-  int blocks() const { return int(rows_.size()); }
+  int blocks() const { return blocks_.size(); }
   Eigen::VectorXd diagonal() const;
   /// The values with `factor` times `scale` added to the diagonal.
   std::vector<double> damped(const Eigen::VectorXd& scale, double factor) const;
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
 
  private:
+  const LowerPattern& blocks_;
   LowerPattern pattern_;
   std::vector<double> values_;
-  std::vector<std::vector<int>> rows_;  ///< block rows below the diagonal, by block column
 };
+
+using Block = BlockMatrix<6>::Block;
 
 }  // namespace cambium::pose_solver

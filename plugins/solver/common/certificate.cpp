@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 
 #include "common/cholesky.hpp"
@@ -32,12 +33,11 @@ std::string obstacle(const PoseGraph& graph) {
   return {};
 }
 
-/// Four rows a node, those of R_i' and t_i, the nodes in a good order of elimination.
-std::vector<int> first_rows(const PoseGraph& graph) {
-  std::vector<std::pair<int, int>> couplings;
-  for (const auto& f : graph.relative) couplings.emplace_back(int(f.tail), int(f.head));
-  auto rows = elimination_order(int(graph.T_map_node.size()), couplings);
-  for (int& r : rows) r *= 4;
+/// Four rows a node, those of R_i' and t_i, the nodes in the order of elimination.
+std::vector<int> first_rows(const Elimination& elimination) {
+  std::vector<int> rows;
+  for (int i = 0; i < elimination.count(); ++i)
+    rows.push_back(4 * elimination.place(std::size_t(i)));
   return rows;
 }
 
@@ -96,10 +96,11 @@ Sparse certificate_matrix(const Sparse& M, const std::vector<int>& rows,
 
 /// How far below zero the eigenvalues reach: the smallest shift that makes S positive definite, to
 /// 1 %. Cholesky decides each trial, which no cluster of eigenvalues around zero disturbs.
-double depth(const Sparse& S, double scale) {
+double depth(const Elimination& elimination, const Sparse& S, double scale) {
   const Sparse lower = S.triangularView<Eigen::Lower>();
-  const LowerPattern pattern = pattern_of(lower);
-  Cholesky cholesky(pattern);
+  const LowerPattern pattern{{lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1},
+                             {lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros()}};
+  Cholesky cholesky(elimination, 4, pattern);
   const auto positive = [&](double shift) {
     return cholesky.factorize(lower.valuePtr(), shift * scale);
   };
@@ -120,10 +121,11 @@ Certificate certify(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
   Certificate out;
   out.not_applicable = obstacle(graph);
   if (!out.not_applicable.empty() || graph.relative.empty()) return out;
-  const auto rows = first_rows(graph);
+  const Elimination elimination(graph, std::vector<bool>(graph.T_map_node.size()));
+  const auto rows = first_rows(elimination);
   const Sparse M = data_matrix(graph, rows, weight);
   const double scale = M.diagonal().maxCoeff();
-  out.smallest_eigenvalue = -depth(certificate_matrix(M, rows, T_map_node), scale);
+  out.smallest_eigenvalue = -depth(elimination, certificate_matrix(M, rows, T_map_node), scale);
   out.certified = out.smallest_eigenvalue >= -certificate_tolerance;
   return out;
 }

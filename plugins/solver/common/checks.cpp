@@ -8,6 +8,7 @@
 
 #include "cambium/error.hpp"
 #include "common/information.hpp"
+#include "common/short_list.hpp"
 
 namespace cambium::pose_solver {
 namespace {
@@ -19,23 +20,33 @@ void require(bool ok, const std::string& factor, const std::string& what) {
 /// Collects what was repaired, so that a file with ten thousand bad matrices gives one warning.
 class Repairs {
  public:
-  void repair(Eigen::Ref<Eigen::MatrixXd> information, const std::string& label) {
+  template <class Information>
+  void repair(Information& information, const std::string& label) {
     require(information.allFinite(), label, "the information matrix is not finite");
-    const double smallest = project_to_psd(information);
-    if (smallest >= 0) return;
-    if (count_++ < 5) named_ += fmt::format("\n  {}: smallest eigenvalue {:.3g}", label, smallest);
+    constexpr int n = Information::RowsAtCompileTime;
+    Eigen::Matrix<double, n, n> symmetric = information;
+    const Spectrum found = project_to_psd(symmetric);
+    information = symmetric;
+    if (found.negative < 0)
+      replaced_.add(fmt::format("{}: smallest eigenvalue {:.3g}", label, found.negative));
+    else if (found.singular)
+      singular_.add(label);
   }
   void report(const Context& context) const {
-    if (count_ == 0) return;
-    context.warn(fmt::format(
-        "{} information matrices have a negative eigenvalue; they were replaced by the nearest "
-        "positive semi-definite matrix (check the order and the sign of the terms):{}{}",
-        count_, named_, count_ > 5 ? fmt::format("\n  and {} more", count_ - 5) : ""));
+    if (replaced_.count() > 0)
+      context.warn(fmt::format(
+          "{} information matrices have a negative eigenvalue; they were replaced by the nearest "
+          "positive semi-definite matrix (check the order and the sign of the terms):{}",
+          replaced_.count(), replaced_.text()));
+    if (singular_.count() > 0)
+      context.warn(
+          fmt::format("{} information matrices are singular; they leave a direction of "
+                      "their poses to other factors:{}",
+                      singular_.count(), singular_.text()));
   }
 
  private:
-  std::size_t count_ = 0;
-  std::string named_;
+  ShortList replaced_, singular_;
 };
 
 std::string name(const std::string& label, const char* kind, std::size_t k) {

@@ -2,28 +2,18 @@
 // Supernodal sparse Cholesky of a matrix whose pattern stays while its values change (CHOLMOD: Y.
 // Chen, T. Davis, W. Hager, S. Rajamanickam, ACM TOMS 35(3), 2008).
 #pragma once
-#include <cholmod.h>
-
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <memory>
-#include <vector>
+
+#include "common/elimination.hpp"
 
 namespace cambium::pose_solver {
 
-/// The lower triangle, column by column, rows ascending. The diagonal is full.
-struct LowerPattern {
-  std::vector<int> column_start;  ///< one more than there are columns
-  std::vector<int> row;
-  int size() const { return int(column_start.size()) - 1; }
-};
-
-/// Of a matrix that has its diagonal and nothing above it.
-LowerPattern pattern_of(const Eigen::SparseMatrix<double>& lower);
-
 class Cholesky {
  public:
-  /// The symbolic analysis. The unknowns must come in a fill-reducing order already.
-  explicit Cholesky(const LowerPattern& pattern);
+  /// Of matrices of `block` x `block` blocks in the order of `elimination`. The pattern must have
+  /// no entry outside of its blocks, and outlive this.
+  Cholesky(const Elimination& elimination, int block, const LowerPattern& pattern);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
@@ -36,13 +26,14 @@ class Cholesky {
   double condition() const;
 
  private:
-  const LowerPattern& pattern_;
-  mutable cholmod_common common_{};
-  cholmod_factor* factor_ = nullptr;
-};
+  struct Free {
+    void operator()(double* memory) const;
+  };
 
-/// The place of each of `count` unknowns in an elimination order that keeps the factor of a matrix
-/// with these couplings sparse: minimum degree or nested dissection, whichever fills less.
-std::vector<int> elimination_order(int count, const std::vector<std::pair<int, int>>& couplings);
+  const LowerPattern& pattern_;
+  mutable CholmodSettings settings_;
+  cholmod_factor* factor_ = nullptr;
+  std::unique_ptr<double, Free> values_;  ///< of the factor
+};
 
 }  // namespace cambium::pose_solver

@@ -5,7 +5,7 @@
 #pragma once
 #include <vector>
 
-#include "cambium/pose_graph.hpp"
+#include "common/elimination.hpp"
 
 namespace cambium::pose_solver {
 
@@ -14,9 +14,9 @@ namespace cambium::pose_solver {
 /// t_tail_head|^2, over the relative factors k with use[k]. omega and tau are the mean eigenvalues
 /// of the information's rotation and translation block.
 ///
-/// `anchored` nodes keep their pose of the graph. Over the used factors every node must be
-/// connected to one. Empty when a linear system could not be solved.
-std::vector<SE3> chordal_poses(const PoseGraph& graph, const std::vector<bool>& anchored,
+/// Nodes without a place in `elimination` keep their pose of the graph. Over the used factors every
+/// node must be connected to one. Empty when a linear system could not be solved.
+std::vector<SE3> chordal_poses(const PoseGraph& graph, const Elimination& elimination,
                                const std::vector<bool>& use);
 
 }  // namespace cambium::pose_solver

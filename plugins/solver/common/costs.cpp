@@ -15,14 +15,18 @@ double squared_residual(const PositionFactor& f, const std::vector<SE3>& T) {
 
 namespace {
 
-/// `add(node, cost)` of every factor, in a fixed order.
+/// `add(node, cost)` of every factor, in a fixed order. `switches` may be null.
 template <class Add>
 void visit(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& weights,
-           const Loss& loss, const Add& add) {
-  const auto robust = [&](double s, bool is_robust) { return is_robust ? loss.value(s) : s; };
+           const Loss& loss, const Weights* switches, const Add& add) {
+  const auto robust = [&](double s, bool is_robust, auto list, std::size_t k) {
+    if (!is_robust) return s;
+    return switches ? loss.switched(s, ((*switches).*list)[k]) : loss.value(s);
+  };
   for (std::size_t k = 0; k < graph.relative.size(); ++k) {
     const auto& f = graph.relative[k];
-    add(f.tail, weights.relative[k] * robust(squared_residual(f, T), f.robust));
+    add(f.tail,
+        weights.relative[k] * robust(squared_residual(f, T), f.robust, &Weights::relative, k));
   }
   for (const auto& f : graph.priors) {
     const Vec6 r = residual(f.T_map_node, SE3{}, T[f.node]);
@@ -30,7 +34,8 @@ void visit(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& wei
   }
   for (std::size_t k = 0; k < graph.positions.size(); ++k) {
     const auto& f = graph.positions[k];
-    add(f.node, weights.positions[k] * robust(squared_residual(f, T), f.robust));
+    add(f.node,
+        weights.positions[k] * robust(squared_residual(f, T), f.robust, &Weights::positions, k));
   }
   for (const auto& f : graph.attitude) {
     const Vec3 up = T[f.node].q.conjugate() * Vec3::UnitZ();
@@ -44,7 +49,14 @@ void visit(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& wei
 double robust_cost(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& weights,
                    const Loss& loss) {
   double F = 0;
-  visit(graph, T, weights, loss, [&](std::size_t, double f) { F += f; });
+  visit(graph, T, weights, loss, nullptr, [&](std::size_t, double f) { F += f; });
+  return F;
+}
+
+double switched_cost(const PoseGraph& graph, const std::vector<SE3>& T, const Weights& weights,
+                     const Loss& loss, const Weights& switches) {
+  double F = 0;
+  visit(graph, T, weights, loss, &switches, [&](std::size_t, double f) { F += f; });
   return F;
 }
 
@@ -52,7 +64,8 @@ std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::
                                  const std::vector<SE3>& T, const Weights& weights,
                                  const Loss& loss) {
   std::vector<double> F(T.size());  // by component; the tail is unused
-  visit(graph, T, weights, loss, [&](std::size_t node, double f) { F[component[node]] += f; });
+  visit(graph, T, weights, loss, nullptr,
+        [&](std::size_t node, double f) { F[component[node]] += f; });
   return F;
 }
 

@@ -9,7 +9,11 @@ namespace cambium::pose_solver {
 double robust_cost(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
                    const Weights& weights, const Loss& loss);
 
-/// The same by connected component.
+/// The same where the factors of a switchable loss have these switches, not their best ones.
+double switched_cost(const PoseGraph& graph, const std::vector<SE3>& T_map_node,
+                     const Weights& weights, const Loss& loss, const Weights& switches);
+
+/// By connected component.
 std::vector<double> robust_costs(const PoseGraph& graph, const std::vector<std::size_t>& component,
                                  const std::vector<SE3>& T_map_node, const Weights& weights,
                                  const Loss& loss);

@@ -7,7 +7,8 @@
 namespace cambium::pose_solver {
 
 const std::vector<std::string>& loss_names() {
-  static const std::vector<std::string> names = {"none", "huber", "cauchy", "geman_mcclure", "dcs"};
+  static const std::vector<std::string> names = {"none",          "huber", "cauchy",
+                                                 "geman_mcclure", "dcs",   "switchable"};
   return names;
 }
 
@@ -34,6 +35,7 @@ void Loss::evaluate(double s, double rho[3]) const {
       rho[2] = -rho[1] * rho[1] / w2_;
       break;
     }
+    case LossKind::switchable:  // min over b of switched(s, b)
     case LossKind::geman_mcclure: {
       const double u = w2_ / (w2_ + s);
       rho[0] = u * s;

@@ -7,7 +7,7 @@
 
 namespace cambium::pose_solver {
 
-enum class LossKind { none, huber, cauchy, geman_mcclure, dcs };
+enum class LossKind { none, huber, cauchy, geman_mcclure, dcs, switchable };
 
 /// The names in the order of LossKind.
 const std::vector<std::string>& loss_names();
@@ -23,6 +23,13 @@ class Loss {
   bool robust() const { return kind_ != LossKind::none; }
   double value(double s) const;
   double weight(double s) const;  ///< rho'(s): the weight of iteratively reweighted least squares
+
+  // Switchable constraints: a factor costs b^2 s + w^2 (1 - b)^2, its switch b is an unknown as the
+  // poses are, and rho is what is left when every switch is at its best.
+  bool switchable() const { return kind_ == LossKind::switchable; }
+  double best_switch(double s) const { return w2_ / (w2_ + s); }
+  double switched(double s, double b) const { return b * b * s + w2_ * (1 - b) * (1 - b); }
+  double width_squared() const { return w2_; }
 
  private:
   LossKind kind_ = LossKind::none;

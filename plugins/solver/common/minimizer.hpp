@@ -7,6 +7,7 @@
 
 #include "cambium/context.hpp"
 #include "common/loss.hpp"
+#include "common/problem.hpp"
 #include "common/weights.hpp"
 
 namespace cambium::pose_solver {
@@ -16,6 +17,8 @@ struct Minimum {
   int iterations = 0;
   bool converged = false;
   std::string message;  ///< why it stopped
+  /// F of the factors that a pose moves, as the minimiser itself adds it up.
+  double cost = 0;
 };
 
 /// When to stop.
@@ -33,7 +36,6 @@ class Minimizer {
                       const Limits& limits, const Context& context) = 0;
 };
 
-using MakeMinimizer = std::function<std::unique_ptr<Minimizer>(const PoseGraph& graph,
-                                                               const std::vector<bool>& held)>;
+using MakeMinimizer = std::function<std::unique_ptr<Minimizer>(const Problem&)>;
 
 }  // namespace cambium::pose_solver

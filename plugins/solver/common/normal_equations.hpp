@@ -10,28 +10,31 @@ namespace cambium::pose_solver {
 
 class NormalEquations {
  public:
-  /// Which poses move, in an order that keeps the Cholesky factor of H sparse.
-  NormalEquations(const PoseGraph& graph, const std::vector<bool>& held);
+  /// Of the poses and factors of `elimination`; another factor must have the weight 0.
+  NormalEquations(const PoseGraph& graph, const Elimination& elimination);
 
-  /// H and g at these poses. A robust factor counts with its weight rho'(s).
-  void linearize(const std::vector<SE3>& poses, const Weights& weights, const Loss& loss);
+  /// H and g at these poses. A robust factor counts with its weight rho'(s); under a switchable
+  /// loss its switch is eliminated: that of `switches`, or (null) the best one.
+  void linearize(const std::vector<SE3>& poses, const Weights& weights, const Loss& loss,
+                 const Weights* switches = nullptr);
   std::vector<SE3> moved(const std::vector<SE3>& poses, const Eigen::VectorXd& step) const;
 
-  const BlockMatrix& H() const { return H_; }
+  const Elimination& elimination() const { return elimination_; }
+  const BlockMatrix<6>& H() const { return H_; }
   const Eigen::VectorXd& g() const { return g_; }
-  /// The row of blocks of a node; -1: it is held.
-  int place(std::size_t node) const { return place_[node]; }
 
  private:
-  void add_relative(const RelativeFactor& f, const BlockMatrix::Slot& slot, double weight,
-                    const std::vector<SE3>& poses, const Loss& loss);
-  void add_absolute(const std::vector<SE3>& poses, const Weights& weights, const Loss& loss);
+  void add_relative(std::size_t k, const std::vector<SE3>& poses, double weight, const Loss& loss,
+                    const double* switch_of);
+  void add_position(std::size_t k, const std::vector<SE3>& poses, double weight, const Loss& loss,
+                    const double* switch_of);
+  void add_absolute(const std::vector<SE3>& poses);
   void add(int place, const Block& H, const Eigen::Matrix<double, 6, 1>& g);
 
   const PoseGraph& graph_;
-  std::vector<int> place_;
-  BlockMatrix H_;
-  std::vector<BlockMatrix::Slot> slots_;  ///< of the relative factors whose poses both move
+  const Elimination& elimination_;
+  BlockMatrix<6> H_;
+  std::vector<BlockMatrix<6>::Slot> slots_;  ///< of the relative factors whose poses both move
   Eigen::VectorXd g_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "cambium/error.hpp"
 #include "common/certificate.hpp"
+#include "common/cholesky.hpp"
 #include "common/costs.hpp"
 #include "common/normal_equations.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 /// The diagonal block of H^-1: H is the information of the poses when the information matrices of
 /// the factors are honest. A held node has no uncertainty.
 Mat6 marginal(const NormalEquations& equations, const Cholesky& cholesky, std::size_t node) {
-  const int place = equations.place(node);
+  const int place = equations.elimination().place(node);
   if (place < 0) return Mat6::Zero();
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(6 * equations.H().blocks(), 6);
   unit.middleRows<6>(6 * place).setIdentity();
@@ -34,15 +35,16 @@ std::vector<double> final_weights(const PoseGraph& graph, const std::vector<SE3>
   return out;
 }
 
-void report_equations(const PoseGraph& graph, const std::vector<bool>& held, const Weights& weights,
-                      const Loss& loss, bool diagnostics, Solution& solution) {
-  NormalEquations equations(graph, held);
+void report_equations(const Problem& problem, const Weights& weights, const Loss& loss,
+                      bool diagnostics, Solution& solution) {
+  const PoseGraph& graph = problem.graph;
+  NormalEquations equations(graph, problem.elimination);
   if (equations.H().blocks() == 0) {
     solution.marginals.assign(graph.marginals.size(), Mat6::Zero());
     return;
   }
   equations.linearize(solution.T_map_node, weights, loss);
-  Cholesky cholesky(equations.H().pattern());
+  Cholesky cholesky(problem.elimination, 6, equations.H().pattern());
   const bool regular = cholesky.factorize(equations.H().values().data());
   if (diagnostics) {
     solution.scores.emplace_back("gradient_norm", 2 * equations.g().norm());

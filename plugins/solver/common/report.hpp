@@ -3,6 +3,7 @@
 #pragma once
 #include "cambium/context.hpp"
 #include "common/loss.hpp"
+#include "common/problem.hpp"
 #include "common/weights.hpp"
 
 namespace cambium::pose_solver {
@@ -13,8 +14,8 @@ std::vector<double> final_weights(const PoseGraph& graph, const std::vector<SE3>
 
 /// Adds "gradient_norm" and "condition" when asked for, and the marginal covariances of
 /// PoseGraph::marginals. Throws Error(numeric) when a marginal does not exist.
-void report_equations(const PoseGraph& graph, const std::vector<bool>& held, const Weights& weights,
-                      const Loss& loss, bool diagnostics, Solution& solution);
+void report_equations(const Problem& problem, const Weights& weights, const Loss& loss,
+                      bool diagnostics, Solution& solution);
 
 /// Adds "certified" and "certificate.smallest_eigenvalue"; warns when the proof fails or is not
 /// applicable.

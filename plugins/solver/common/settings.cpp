@@ -13,8 +13,10 @@ void Settings::params(ParamVisitor& v) {
   v("loss_width", loss_width, "Residuals above this many sigmas count as suspicious",
     above(0.0, "sigma"));
   v("initialization", initialization,
-    "`chordal` looks for a better start than the given poses; `given` starts from them",
-    one_of({"chordal", "given"}));
+    "`chordal` starts from the given poses or the chordal relaxation, whichever costs less; "
+    "`given` "
+    "lets both run a few iterations before it compares; `local` knows the given poses only",
+    one_of({"chordal", "given", "local"}));
   v("max_iterations", limits.iterations, "Gives up after this many", between(1, 100000));
   v("tolerance", limits.tolerance, "Stops when a step lowers the cost by less than this fraction",
     above(0.0));

@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
-#include "common/checks.hpp"
 #include "common/costs.hpp"
 #include "common/gnc.hpp"
+#include "common/one_thread.hpp"
 #include "common/report.hpp"
 #include "common/start.hpp"
 
 namespace cambium::pose_solver {
 namespace {
+
+/// Iterations before two starts are compared: by then the cost shows to which minimum each leads.
+constexpr int head_start = 5;
 
 /// Minimisation never climbs, but it may fail; then the given poses stand.
 void keep_the_better(const PoseGraph& graph, const Weights& weights, const Loss& loss,
@@ -22,41 +25,63 @@ void keep_the_better(const PoseGraph& graph, const Weights& weights, const Loss&
 }
 
 GncResult minimise(const Settings& settings, Minimizer& minimizer, const PoseGraph& graph,
-                   const std::vector<SE3>& start, const Loss& loss, const Context& context) {
+                   const Poses& start, const Loss& loss, const Context& context) {
   if (settings.gnc())
     return graduate(minimizer, graph, start, settings.loss_width, settings.limits, context);
   const Weights weights = unit_weights(graph);
   return {minimizer.run(start, weights, loss, settings.limits, context), weights};
 }
 
+/// `loss` decides what is cheap. Iterations spent are added to `iterations`.
+Poses find_start(const Settings& settings, Minimizer& minimizer, const Problem& problem,
+                 const Loss& loss, const Context& context, int& iterations) {
+  const Poses& given = problem.graph.T_map_node;
+  if (settings.initialization == "local") return given;
+  auto candidates = chordal_starts(problem, loss);
+  candidates.insert(candidates.begin(), given);
+  if (candidates.size() == 1) return given;
+  if (settings.initialization == "chordal") return cheapest(problem, candidates, loss);
+
+  const Poses relaxed = cheapest(problem, {candidates.begin() + 1, candidates.end()}, loss);
+  const Limits few{std::min(head_start, settings.limits.iterations), settings.limits.tolerance};
+  candidates = {given, relaxed};
+  for (Poses& poses : candidates) {
+    const Minimum m = minimizer.run(poses, unit_weights(problem.graph), loss, few, context);
+    poses = m.T_map_node;
+    iterations += m.iterations;
+  }
+  return cheapest(problem, candidates, loss);
+}
+
 }  // namespace
 
 Solution solve(const Settings& settings, const PoseGraph& given, const Context& context,
                const MakeMinimizer& make) {
-  const PoseGraph graph = checked(given, context);
+  const OneThread one_thread;
+  const Problem problem(given, context);
+  const auto& graph = problem.graph;
   const Loss loss = settings.gnc() ? Loss() : Loss(loss_from(settings.loss), settings.loss_width);
-  const auto component = components(graph);
-  const auto held = held_nodes(graph, component);
-  const auto start =
-      settings.initialization == "given"
-          ? graph.T_map_node
-          : chordal_start(graph, component, held,
-                          settings.gnc() ? Loss(LossKind::dcs, settings.loss_width) : loss);
   context.check_cancelled();
-  const auto minimizer = make(graph, held);
+  const auto minimizer = make(problem);
+  int iterations = 0;
+  const Poses start = find_start(settings, *minimizer, problem,
+                                 settings.gnc() ? Loss(LossKind::dcs, settings.loss_width) : loss,
+                                 context, iterations);
   auto [minimum, weights] = minimise(settings, *minimizer, graph, start, loss, context);
+  const double solver_cost = minimum.cost;
   keep_the_better(graph, weights, loss, minimum);
-  for (std::size_t i = 0; i < held.size(); ++i)  // to the last bit
-    if (held[i]) minimum.T_map_node[i] = given.T_map_node[i];
+  for (std::size_t i = 0; i < problem.held.size(); ++i)  // to the last bit
+    if (problem.held[i]) minimum.T_map_node[i] = given.T_map_node[i];
 
   Solution out;
   out.T_map_node = std::move(minimum.T_map_node);
-  out.iterations = minimum.iterations;
+  out.iterations = iterations + minimum.iterations;
   out.converged = minimum.converged;
   out.message = std::move(minimum.message);
   out.weight = final_weights(graph, out.T_map_node, weights, loss);
   if (settings.diagnostics || !graph.marginals.empty())
-    report_equations(graph, held, weights, loss, settings.diagnostics, out);
+    report_equations(problem, weights, loss, settings.diagnostics, out);
+  if (settings.diagnostics) out.scores.emplace_back("solver_cost", solver_cost);
   if (settings.certify) report_certificate(graph, weights, loss, context, out);
   return out;
 }

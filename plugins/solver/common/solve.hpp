@@ -12,7 +12,7 @@ namespace cambium::pose_solver {
 Solution solve(const Settings& settings, const PoseGraph& given, const Context& context,
                const MakeMinimizer& make);
 
-/// The component of a plugin that minimises with `M`, made from (graph, held).
+/// The component of a plugin that minimises with `M`, made from a Problem.
 template <class M>
 class SolverWith final : public Solver {
  public:
@@ -20,9 +20,7 @@ class SolverWith final : public Solver {
 
   Solution solve(const PoseGraph& graph, const Context& context) const override {
     return pose_solver::solve(settings_, graph, context,
-                              [](const PoseGraph& checked, const std::vector<bool>& held) {
-                                return std::make_unique<M>(checked, held);
-                              });
+                              [](const Problem& problem) { return std::make_unique<M>(problem); });
   }
 
  private:

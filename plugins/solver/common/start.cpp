@@ -77,8 +77,8 @@ SE3 rigid_move(const Absolute& a) {
 
 /// Chordal poses; a component that nothing holds is relaxed from its first node, then moved as a
 /// whole to where its absolute factors say.
-std::vector<SE3> relaxed(const PoseGraph& graph, const std::vector<std::size_t>& component,
-                         const std::vector<bool>& held, const std::vector<bool>& use) {
+std::vector<SE3> relaxed(const Problem& problem, const std::vector<bool>& use) {
+  const auto& [graph, component, held, elimination] = problem;
   std::vector<bool> anchored = held, tied(held.size());
   for (std::size_t i = 0; i < held.size(); ++i)
     if (held[i]) tied[component[i]] = true;
@@ -87,7 +87,10 @@ std::vector<SE3> relaxed(const PoseGraph& graph, const std::vector<std::size_t>&
     if (tied[component[i]]) continue;
     anchored[i] = tied[component[i]] = loose[component[i]] = true;
   }
-  auto poses = chordal_poses(graph, anchored, use);
+  const bool all = std::find(use.begin(), use.end(), false) == use.end();
+  auto poses = anchored == held && all
+                   ? chordal_poses(graph, elimination, use)
+                   : chordal_poses(graph, Elimination(graph, anchored, use), use);
   if (poses.empty()) return poses;
   const auto absolute = absolutes(graph, component, poses);
   std::vector<SE3> move(held.size());
@@ -100,18 +103,22 @@ std::vector<SE3> relaxed(const PoseGraph& graph, const std::vector<std::size_t>&
 
 }  // namespace
 
-std::vector<SE3> chordal_start(const PoseGraph& graph, const std::vector<std::size_t>& component,
-                               const std::vector<bool>& held, const Loss& loss) {
-  std::vector<std::vector<SE3>> starts;
+std::vector<Poses> chordal_starts(const Problem& problem, const Loss& loss) {
+  const auto& graph = problem.graph;
   const std::vector<bool> all(graph.relative.size(), true), trusted = backbone(graph);
-  starts.push_back(relaxed(graph, component, held, all));
-  if (loss.robust() && trusted != all) starts.push_back(relaxed(graph, component, held, trusted));
+  std::vector<Poses> out;
+  out.push_back(relaxed(problem, all));
+  if (loss.robust() && trusted != all) out.push_back(relaxed(problem, trusted));
+  std::erase_if(out, [](const Poses& poses) { return poses.empty(); });  // not solvable
+  return out;
+}
 
+Poses cheapest(const Problem& problem, const std::vector<Poses>& candidates, const Loss& loss) {
+  const auto& [graph, component, held, elimination] = problem;
   const Weights weights = unit_weights(graph);
-  std::vector<SE3> best = graph.T_map_node;
+  Poses best = candidates.front();
   auto best_costs = robust_costs(graph, component, best, weights, loss);
-  for (const auto& poses : starts) {
-    if (poses.empty()) continue;
+  for (const Poses& poses : candidates) {
     const auto costs = robust_costs(graph, component, poses, weights, loss);
     const auto better = [&](std::size_t c) { return costs[c] < best_costs[c]; };
     for (std::size_t i = 0; i < best.size(); ++i)

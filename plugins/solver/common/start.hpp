@@ -3,15 +3,19 @@
 #pragma once
 #include <vector>
 
-#include "cambium/pose_graph.hpp"
 #include "common/loss.hpp"
+#include "common/problem.hpp"
 
 namespace cambium::pose_solver {
 
-/// For every component the cheapest of: the given poses, the chordal relaxation of all factors, and
-/// (under a robust loss) that of the trusted factors with only as many loops as tie them together,
-/// which false loops cannot bend.
-std::vector<SE3> chordal_start(const PoseGraph& graph, const std::vector<std::size_t>& component,
-                               const std::vector<bool>& held, const Loss& loss);
+using Poses = std::vector<SE3>;
+
+/// Poses that need no given ones: the chordal relaxation of all factors, and (under a robust loss)
+/// that of the trusted factors with only as many loops as tie them together, which false loops
+/// cannot bend.
+std::vector<Poses> chordal_starts(const Problem& problem, const Loss& loss);
+
+/// For every component the candidate of the lowest F, the first among equals.
+Poses cheapest(const Problem& problem, const std::vector<Poses>& candidates, const Loss& loss);
 
 }  // namespace cambium::pose_solver

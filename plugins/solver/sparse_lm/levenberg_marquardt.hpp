@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Levenberg-Marquardt over sparse normal equations.
 #pragma once
+#include <memory>
+
 #include "common/minimizer.hpp"
 #include "damped_system.hpp"
 
@@ -8,18 +10,25 @@ namespace cambium::sparse_lm {
 
 class LevenbergMarquardt final : public pose_solver::Minimizer {
  public:
-  /// Orders the unknowns and analyses the factorisation, once for all runs.
-  LevenbergMarquardt(const PoseGraph& graph, const std::vector<bool>& held)
-      : graph_(graph), equations_(graph, held), system_(equations_) {}
+  explicit LevenbergMarquardt(const pose_solver::Problem& problem) : problem_(problem) {}
 
   pose_solver::Minimum run(const std::vector<SE3>& start, const pose_solver::Weights& weights,
                            const pose_solver::Loss& loss, const pose_solver::Limits& limits,
                            const Context& context) override;
 
  private:
-  const PoseGraph& graph_;
-  pose_solver::NormalEquations equations_;
-  DampedSystem system_;
+  /// What follows from which factors there are, kept over many runs.
+  struct Structure {
+    Structure(const pose_solver::Problem& problem, std::vector<bool> use);
+    std::vector<bool> use;  ///< relative factors; the others must have the weight 0
+    std::unique_ptr<const pose_solver::Elimination> own;  ///< of those; null when all are used
+    pose_solver::NormalEquations equations;
+    DampedSystem system;
+  };
+  Structure& structure_for(const pose_solver::Weights& weights);
+
+  const pose_solver::Problem& problem_;
+  std::unique_ptr<Structure> structure_;
 };
 
 }  // namespace cambium::sparse_lm

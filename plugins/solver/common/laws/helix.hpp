@@ -71,5 +71,25 @@ struct Helix {
   PoseGraph graph;
 };
 
+/// Full information matrices, a prior, a position, attitudes, and no fixed node.
+PoseGraph every_kind_of_factor() {
+  Helix helix(60);
+  PoseGraph& g = helix.graph;
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> normal;
+  for (auto& f : g.relative) {  // a random rotation mixes all terms
+    Eigen::Matrix<double, 6, 6> A;
+    for (double& a : A.reshaped()) a = normal(engine);
+    const Eigen::Matrix<double, 6, 6> Q = A.householderQr().householderQ();
+    f.information = Q * f.information * Q.transpose();
+  }
+  g.fixed[0] = false;
+  g.priors.push_back({10, helix.truth[10], information(0.1, 0.05), "prior"});
+  g.positions.push_back({50, helix.truth[50].t + Vec3(0.1, 0, 0), Mat3::Identity() * 25, true, ""});
+  for (std::size_t i = 0; i < 60; i += 5)
+    g.attitude.push_back({i, helix.truth[i].q.conjugate() * Vec3(0.01, 0, 1).normalized(), 0.02});
+  return g;
+}
+
 }  // namespace
 }  // namespace cambium::testing

@@ -52,8 +52,22 @@ TEST(SolverLaws, DiagnosticsTellOptimumFromStart) {
     EXPECT_GT(s.scores[1].second, 1);
     return s.scores[0].second;
   };
-  const double stopped = gradient("{diagnostics: true, initialization: given, max_iterations: 1}");
+  const double stopped = gradient("{diagnostics: true, initialization: local, max_iterations: 1}");
   EXPECT_LT(gradient("{diagnostics: true}"), 1e-3 * stopped);
+}
+
+// However a library orders its terms and scales its rotations, it minimises the one cost.
+TEST(SolverLaws, TheSolverAddsUpTheOneCost) {
+  for (const char* const loss : {"none", "cauchy"}) {
+    const PoseGraph g = every_kind_of_factor();
+    const Solution s =
+        solve(g, std::string("{diagnostics: true, loss_width: 50, loss: ") + loss + "}");
+    ASSERT_EQ(s.scores.at(2).first, "solver_cost");
+    if (std::string(loss) == "none")
+      EXPECT_NEAR(s.scores[2].second / cost(g, s.T_map_node), 1, 1e-9);
+    else
+      EXPECT_LT(s.scores[2].second, cost(g, s.T_map_node));
+  }
 }
 
 /// A ring of 20 poses whose given poses go round twice: a local minimum that no small step leaves.
@@ -79,7 +93,7 @@ TEST(SolverLaws, CertifiesTheOptimumAndNoOther) {
   const Solution best = solve(twisted_ring(), "{certify: true}");
   EXPECT_LT(cost(twisted_ring(), best.T_map_node), 1e-6);
   EXPECT_EQ(score(best, "certified"), 1);
-  const Solution twisted = solve(twisted_ring(), "{certify: true, initialization: given}");
+  const Solution twisted = solve(twisted_ring(), "{certify: true, initialization: local}");
   EXPECT_GT(cost(twisted_ring(), twisted.T_map_node), 100);
   EXPECT_EQ(score(twisted, "certified"), 0);
   EXPECT_LT(score(twisted, "certificate.smallest_eigenvalue"), -1e-4);

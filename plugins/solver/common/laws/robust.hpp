@@ -74,7 +74,7 @@ TEST_P(RobustLoss, FalseLoopsHaveLittleWeightAndTrueOnesMost) {
   EXPECT_LT(helix.largest_error(s.T_map_node), 0.3);
 }
 INSTANTIATE_TEST_SUITE_P(Losses, RobustLoss,
-                         ::testing::Values("cauchy", "geman_mcclure", "dcs", "gnc"));
+                         ::testing::Values("cauchy", "geman_mcclure", "dcs", "switchable", "gnc"));
 
 // The weights of the losses, by their formulas, on a loop that stays 4 sigma off: both its ends
 // are fixed.
@@ -92,18 +92,44 @@ TEST(SolverLaws, ReportsTheWeightOfEachLoss) {
   EXPECT_NEAR(weight("{loss: geman_mcclure, loss_width: 2}"), std::pow(4 / 20.0, 2), 1e-14);
   EXPECT_NEAR(weight("{loss: dcs, loss_width: 2}"), std::pow(8 / 20.0, 2), 1e-14);
   EXPECT_EQ(weight("{loss: dcs, loss_width: 5}"), 1);
+  EXPECT_NEAR(weight("{loss: switchable, loss_width: 2}"), std::pow(4 / 20.0, 2), 1e-14);
+  EXPECT_NEAR(weight("{loss: switchable, loss_width: 5}"), std::pow(25 / 41.0, 2), 1e-14);
 }
 
-TEST(SolverLaws,
-     HuberIsTheMinimumOfItsFormula) {  // rho = 2 k sqrt(s) - k^2 pulls with k, not with r
+/// A node that odometry holds at 0 and a loop pulls to `x`, both with sigma 1 m.
+PoseGraph pulled_to(double x) {
   PoseGraph g;
   g.T_map_node = {SE3{}, SE3{}};
   g.ids = {0, 1};
   g.fixed = {true, false};
   g.relative.push_back({0, 1, SE3{}, Mat6::Identity(), false, ""});
-  g.relative.push_back({0, 1, SE3{Quat::Identity(), Vec3(10, 0, 0)}, Mat6::Identity(), true, ""});
-  const Solution s = solve(g, "{loss: huber, loss_width: 1.5, tolerance: 1e-14}");
+  g.relative.push_back({0, 1, SE3{Quat::Identity(), Vec3(x, 0, 0)}, Mat6::Identity(), true, ""});
+  return g;
+}
+
+// rho = 2 k sqrt(s) - k^2 pulls with k, not with r.
+TEST(SolverLaws, HuberIsTheMinimumOfItsFormula) {
+  const Solution s = solve(pulled_to(10), "{loss: huber, loss_width: 1.5, tolerance: 1e-14}");
   EXPECT_NEAR(s.T_map_node[1].t.x(), 1.5, 1e-5);
+}
+
+// A switch b costs w^2 (1 - b)^2 and leaves b^2 s of the loop: the minimum over both unknowns, by
+// trying all of them. DCS lets go of nothing below w sigmas and of more above.
+TEST(SolverLaws, SwitchableIsTheMinimumOverPosesAndSwitches) {
+  const double target = 4, w = 2;
+  double best_x = 0, best_b = 0, least = 1e9;
+  for (double x = 0; x <= target; x += 1e-3)
+    for (double b = 0; b <= 1; b += 1e-3) {
+      const double r = b * (target - x), off = w * (1 - b), F = x * x + r * r + off * off;
+      if (F < least) least = F, best_x = x, best_b = b;
+    }
+  const auto at = [&](const std::string& loss) {
+    return solve(pulled_to(target), "{loss_width: 2, tolerance: 1e-12, loss: " + loss + "}");
+  };
+  const Solution s = at("switchable"), dcs = at("dcs");
+  EXPECT_NEAR(s.T_map_node[1].t.x(), best_x, 2e-3);
+  EXPECT_NEAR(s.weight[1], best_b * best_b, 4e-3);
+  EXPECT_GT(std::abs(dcs.T_map_node[1].t.x() - best_x), 0.05);
 }
 
 }  // namespace
