@@ -28,7 +28,7 @@ Solution solve(const Subject& s, const PoseGraph& graph, const Context& context)
 }
 
 PoseGraph graph_of(const Atlas& atlas) {
-  return build_graph(atlas, 0, 0, [](const auto&) {}).graph;
+  return build_graph(atlas, 0, 0, {}, [](const auto&) {}).graph;
 }
 
 void holds_the_gauge(const Subject& s) {
