@@ -37,16 +37,21 @@ std::string position(const Geodetic& g) {
 std::string track(const Atlas& atlas, std::uint32_t m, std::size_t island, const GeoReference& g) {
   const MissionState& state = atlas.missions[m];
   std::string line;
-  for (const SE3& T_map_node : *state.T_map_node)
-    line += (line.empty() ? "" : ",") + position(map_to_geodetic(g, T_map_node.t));
+  for (const SE3& T_map_node : *state.T_map_node) {
+    if (!line.empty()) line += ',';
+    line += position(map_to_geodetic(g, T_map_node.t));
+  }
   const bool one = state.T_map_node->size() == 1;  // a line has at least two positions
-  return "{\"type\":\"Feature\",\"properties\":{\"mission\":" + quoted(state.mission->name) +
-         ",\"platform\":" + std::to_string(state.mission->platform_id) +
-         ",\"island\":" + std::to_string(island) +
-         ",\"nodes\":" + std::to_string(state.T_map_node->size()) +
-         ",\"heights\":\"ellipsoidal, WGS 84\"},\"geometry\":{\"type\":\"" +
-         (one ? "Point" : "LineString") + "\",\"coordinates\":" + (one ? line : "[" + line + "]") +
-         "}}";
+  std::string out = "{\"type\":\"Feature\",\"properties\":{\"mission\":";
+  out += quoted(state.mission->name);
+  out += ",\"platform\":" + std::to_string(state.mission->platform_id);
+  out += ",\"island\":" + std::to_string(island);
+  out += ",\"nodes\":" + std::to_string(state.T_map_node->size());
+  out += ",\"heights\":\"ellipsoidal, WGS 84\"},\"geometry\":{\"type\":";
+  out += one ? "\"Point\",\"coordinates\":" : "\"LineString\",\"coordinates\":[";
+  out += line;
+  out += one ? "}}" : "]}}";
+  return out;
 }
 
 class GeoJson final : public MapExporter {
@@ -62,8 +67,10 @@ class GeoJson final : public MapExporter {
                      atlas.missions[atlas.islands[i].missions.front()].mission->name +
                      ") has no georeference and is not in the GeoJSON; add a georeference step");
       else
-        for (const std::uint32_t m : atlas.islands[i].missions)
-          features += (features.empty() ? "\n" : ",\n") + track(atlas, m, i, *g);
+        for (const std::uint32_t m : atlas.islands[i].missions) {
+          features += features.empty() ? "\n" : ",\n";
+          features += track(atlas, m, i, *g);
+        }
     }
     if (features.empty()) return {};
     const auto path = folder / "tracks.geojson";
