@@ -21,6 +21,9 @@ struct World {
 /// offset; deterministic.
 World make_world();
 
+/// A payload that needs no file. `digest` must be that of no other payload of the atlas.
+std::shared_ptr<const PayloadSource> in_memory(Payload payload, Digest digest);
+
 /// The atlas with other payloads: one for each node of each mission.
 Atlas with_payloads(const Atlas& atlas,
                     const std::function<Payload(NodeRef, const Payload&)>& payload);
