@@ -38,9 +38,10 @@ class Matrix : public ::testing::Test {
   Outcome run(const std::string& command, const std::string& body,
               std::vector<std::string> more = {}) {
     write_file(folder / "m.yaml", "version: 1\npipeline: p.yaml\n" + body);
-    std::vector<std::string> arguments = {
-        command,   (folder / "m.yaml").string(), "--out",         (folder / "out").string(),
-        "--cache", (folder / "cache").string(),  "--plugin-path", built("tests/matrix/plugins").string()};
+    std::vector<std::string> arguments = {command,         (folder / "m.yaml").string(),
+                                          "--out",         (folder / "out").string(),
+                                          "--cache",       (folder / "cache").string(),
+                                          "--plugin-path", built("tests/matrix/plugins").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_cambium(arguments);
   }
@@ -132,6 +133,24 @@ TEST_F(Matrix, RepeatedRunsHaveTheirOwnSeedsAndCompare) {
   EXPECT_CONTAINS(compared.out, "0 metrics moved");
 }
 
+TEST_F(Matrix, ShardsLeaveEveryCellInTheCacheOfTheMatrix) {
+  const std::string body = datasets + losses;
+  const auto first = run("matrix", body, {"--shard", "1/2"});
+  EXPECT_CONTAINS(first.out, "shard 1/2: 2 of 2 cells ran");
+  EXPECT_FALSE(fs::exists(folder / "out/results.json")) << "a shard judges nothing";
+  EXPECT_CONTAINS(run("matrix", body, {"--shard", "2/2"}).out, "shard 2/2: 2 of 2 cells ran");
+  fs::remove_all(folder / "out");
+  ASSERT_EQ(run("matrix", body).code, 0);
+  ASSERT_EQ(results()["cells"].size(), 4u);
+  for (const auto& cell : fs::directory_iterator(folder / "out/cells")) {
+    if (!cell.is_directory()) continue;
+    const auto steps = read_json(cell.path() / "report.json")["steps"];
+    EXPECT_TRUE(steps[0]["cached"].get<bool>()) << cell.path() << " was computed again";
+  }
+  const auto wrong = run("matrix", body, {"--shard", "3/2"});
+  EXPECT_EQ(wrong.code, 2);
+}
+
 TEST_F(Matrix, MistakesAreReportedAtOnceWithTheirPlaces) {
   const auto outcome = run("matrix",
                            "datasts: []\ndatasets:\n  - {name: a, missions: [a], optinal: true}\n"
@@ -176,7 +195,7 @@ TEST_F(Matrix, ABatchGoesOnAfterABrokenDataset) {
 
 TEST(ShippedMatrices, AreOfTheCommittedSchema) {
   EXPECT_EQ(run_cambium({"matrix", "--schema"}).out,
-            read_file(source("schemas/matrix.schema.json"))
+            read_file(source("schemas/matrix.schema.json")))
       << "run: ./bootstrap generate";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the tests find what belongs to this tree. Paths of one machine stand in places.cpp alone, so
-// that a compiler cache serves every other file in every clone.
+// Where the tests find what belongs to this tree. Paths of one machine stand in places.cpp alone,
+// so that a compiler cache serves every other file in every clone.
 #pragma once
 #include <filesystem>
 #include <string>

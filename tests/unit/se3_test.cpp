@@ -149,8 +149,9 @@ TEST(SE3, InterpolationHitsItsEndsAndIsEven) {
     EXPECT_LT(difference(interpolate(a, b, 0), a), precision);
     EXPECT_LT(difference(interpolate(a, b, 1), b), 10 * precision);
     const SE3 step = a.inverse() * interpolate(a, b, 0.25);
-    if (rotation_angle(a.inverse() * b) < 3.1)
+    if (rotation_angle(a.inverse() * b) < 3.1) {
       EXPECT_LT(difference(a * step * step * step * step, b), 100 * precision);
+    }
   }
 }
 
