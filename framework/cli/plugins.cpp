@@ -40,6 +40,9 @@ void describe(const Registry& registry, const std::string& name) {
 
 }  // namespace
 
+void add_plugins_new(CLI::App& plugins);
+void add_plugins_check(CLI::App& plugins, const std::shared_ptr<PluginOptions>& options);
+
 void add_plugins(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("plugins", "What can be named in a pipeline");
   sub->require_subcommand(1);
@@ -50,14 +53,18 @@ void add_plugins(CLI::App& app) {
     list(options->load().registry());
   });
   auto name = std::make_shared<std::string>();
-  CLI::App* d = sub->add_subcommand("describe", "One plugin, or all, with the parameters, as Markdown");
+  CLI::App* d =
+      sub->add_subcommand("describe", "One plugin, or all, with the parameters, as Markdown");
   d->fallthrough()->add_option("NAME", *name, "As in a pipeline; all when it is missing");
-  d->callback([options, name] { const PluginLoader loader = options->load();
+  d->callback([options, name] {
+    const PluginLoader loader = options->load();
     if (name->empty())
       fmt::print("{}", reference_markdown(loader.registry()));
     else
       describe(loader.registry(), *name);
   });
+  add_plugins_new(*sub);
+  add_plugins_check(*sub, options);
 }
 
 }  // namespace cambium::cli

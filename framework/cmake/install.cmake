@@ -11,4 +11,4 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/cambiumConfigVersio
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfigVersion.cmake
-              cmake/cambium_add_plugin.cmake cmake/plugin.map DESTINATION ${package_dir})
+              cmake/cambium_add_plugin.cmake cmake/cambium_test_plugin.cmake cmake/plugin.map DESTINATION ${package_dir})

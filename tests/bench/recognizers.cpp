@@ -1,109 +1,137 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How often a place recogniser is right:
-//   bench_recognizers QUERY REFERENCE [SCAN_CONTEXT_PARAMS...]
-// QUERY and REFERENCE are mission folders with ground_truth.tum (one frame for both). Each further
-// argument is a YAML map, e.g. '{rings: 10}'. One row of a Markdown table for each.
+// How often place recognisers are right, side by side:
+//   bench_recognizers SCENE... -- METHOD...
+// SCENE is QUERY,REFERENCE (mission folders with ground_truth.tum, one frame for both) or MISSION,K
+// (every K-th node is the reference). METHOD is a recogniser with parameters, behind filters if
+// any: 'scan_context{rings: 10}' 'stable_normals{} | scan_context_pp'. One row of a Markdown table
+// each.
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
+#include <limits>
+#include <map>
 
-#include "cambium/files.hpp"
-#include "support/support.hpp"
+#include "recognizer_data.hpp"
 
 namespace {
 
 using namespace cambium;
+using bench::Scene;
 
-std::vector<Vec3> true_positions(const Mission& mission) {
-  std::vector<Vec3> out;
-  for (const auto& pose : read_tum(mission.folder / "ground_truth.tum"))
-    out.push_back(pose.T_map_node.t);
-  if (out.size() != mission.nodes.size())
-    throw Error(ErrorCode::data, (mission.folder / "ground_truth.tum").string(),
-                "expected one pose for each of " + std::to_string(mission.nodes.size()) +
-                    " nodes, found " + std::to_string(out.size()));
-  return out;
-}
-
-struct Scene {
-  Atlas atlas;
-  std::vector<Vec3> query, reference;  ///< true positions [m]
-  double distance(const Candidate& c) const {
-    return (query[c.query] - reference[c.reference]).norm();
-  }
-};
-
-Scene load(const std::string& query, const std::string& reference, const Context& context) {
-  const auto reader = cambium::testing::component<MissionReader>("mission_folder");
-  Mission q = reader->read(query, context), r = reader->read(reference, context);
-  q.name = "b";
-  r.name = "a";  // an atlas is ordered by name: the reference comes first
-  std::vector<Vec3> at_query = true_positions(q), at_reference = true_positions(r);
-  return {cambium::testing::make_atlas({std::move(q), std::move(r)}), at_query, at_reference};
-}
-
-/// Of the queries that have a reference within `limit`: the share with one among the first `n`
-/// candidates [%].
-double recall(const Scene& scene, const std::vector<Candidate>& candidates, std::size_t n,
-              double limit) {
-  std::size_t possible = 0, found = 0;
-  for (std::size_t q = 0; q < scene.query.size(); ++q) {
-    possible += std::any_of(scene.reference.begin(), scene.reference.end(),
-                            [&](const Vec3& r) { return (scene.query[q] - r).norm() < limit; });
-    std::size_t rank = 0;
-    bool hit = false;
-    for (const Candidate& c : candidates)
-      if (c.query == q && rank++ < n) hit = hit || scene.distance(c) < limit;
-    found += hit;
-  }
-  return possible == 0 ? 0.0 : 100.0 * double(found) / double(possible);
-}
-
-/// How far scores separate: the lowest score of the first candidates within 5 m, and the highest
-/// of any pair more than 10 m apart.
-std::pair<double, double> separation(const Scene& scene, const std::vector<Candidate>& candidates) {
-  double lowest_right = 1.0, highest_wrong = 0.0;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Candidate& c = candidates[i];
-    const bool first = i == 0 || candidates[i - 1].query != c.query;
-    if (first && scene.distance(c) < 5.0) lowest_right = std::min(lowest_right, c.score);
-    if (scene.distance(c) > 10.0) highest_wrong = std::max(highest_wrong, c.score);
-  }
-  return {lowest_right, highest_wrong};
-}
+constexpr double farthest = 30.0;  // queries without a reference within so many metres do not count
 
 double cpu_milliseconds() { return 1e3 * double(std::clock()) / CLOCKS_PER_SEC; }
 
-void print_row(const Scene& scene, const std::string& yaml, const Context& context) {
-  const auto recognizer = cambium::testing::component<PlaceRecognizer>("scan_context", yaml);
+struct Result {
+  std::size_t queries = 0;  ///< that have a reference
+  std::size_t first_right = 0, five_right = 0;
+  std::vector<double> right_scores, wrong_scores;  ///< of the first candidates
+  std::vector<double> translation, rotation;       ///< errors of the right ones' guesses [m], [deg]
+};
+
+void judge_guess(const Scene& scene, const Candidate& c, Result& result) {
+  if (!c.T_reference_query) return;
+  const SE3 truth = scene.reference[c.reference].inverse() * scene.query[c.query];
+  const SE3 error = truth.inverse() * *c.T_reference_query;
+  result.translation.push_back((c.T_reference_query->t - truth.t).head<2>().norm());
+  result.rotation.push_back(rotation_angle(error) * 57.29578);
+}
+
+Result judge(const Scene& scene, const std::vector<Candidate>& candidates) {
+  Result result;
+  for (std::size_t q = 0; q < scene.query.size(); ++q) {
+    if (scene.nearest(q) > farthest) continue;
+    ++result.queries;
+    std::size_t rank = 0;
+    bool within_five = false;
+    for (const Candidate& c : candidates) {
+      if (c.query != q || rank == 5) continue;
+      const bool right = scene.is_right(c);
+      within_five |= right;
+      if (rank++ > 0) continue;
+      (right ? result.right_scores : result.wrong_scores).push_back(c.score);
+      result.first_right += right;
+      if (right) judge_guess(scene, c, result);
+    }
+    result.five_right += within_five;
+  }
+  return result;
+}
+
+/// Of the queries, those whose first candidate is right and scores above every wrong first one.
+std::size_t without_error(const Result& result) {
+  const double wrong = result.wrong_scores.empty() ? -1e9
+                                                   : *std::max_element(result.wrong_scores.begin(),
+                                                                       result.wrong_scores.end());
+  return std::size_t(std::count_if(result.right_scores.begin(), result.right_scores.end(),
+                                   [&](double score) { return score > wrong; }));
+}
+
+double middle(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+void print_row(const Scene& scene, const std::string& method, const std::string& recognizer,
+               const Context& context) {
+  const auto [name, yaml] = bench::name_and_params(recognizer);
+  const auto component = cambium::testing::component<PlaceRecognizer>(name, yaml);
   const double start = cpu_milliseconds();
-  const Fingerprints query = recognizer->describe({scene.atlas, 1}, context);
-  const Fingerprints reference = recognizer->describe({scene.atlas, 0}, context);
+  const Fingerprints query = component->describe({scene.atlas, 1}, context);
+  const Fingerprints reference = component->describe({scene.atlas, 0}, context);
   const double described = cpu_milliseconds();
-  const auto candidates = recognizer->match(query, reference, {}, context);
+  const auto candidates = component->match(query, reference, {}, context);
   const double matched = cpu_milliseconds();
-  const auto [right, wrong] = separation(scene, candidates);
-  std::printf("| `%s` | %.0f | %.0f | %.0f | %.0f | %.3f | %.3f | %.1f | %.2f |\n", yaml.c_str(),
-              recall(scene, candidates, 1, 5), recall(scene, candidates, 5, 5),
-              recall(scene, candidates, 1, 10), recall(scene, candidates, 5, 10), right, wrong,
-              (described - start) / double(query.rows + reference.rows),
+  const Result r = judge(scene, candidates);
+  const auto percent = [&](std::size_t n) { return 100.0 * double(n) / double(r.queries); };
+  std::printf("| %s | `%s` | %zu | %.0f | %.0f | %.0f | %.1f m, %.1f deg | %.2f | %.2f |\n",
+              scene.name.c_str(), method.c_str(), r.queries, percent(r.first_right),
+              percent(r.five_right), percent(without_error(r)), middle(r.translation),
+              middle(r.rotation), (described - start) / double(query.rows + reference.rows),
               1e3 * (matched - described) / double(query.rows * reference.rows));
+  std::fflush(stdout);
+}
+
+/// "FILTER | FILTER | RECOGNISER" apart.
+std::vector<std::string> parts(const std::string& method) {
+  std::vector<std::string> out;
+  std::size_t from = 0;
+  for (std::size_t bar; (bar = method.find(" | ", from)) != std::string::npos; from = bar + 3)
+    out.push_back(method.substr(from, bar - from));
+  out.push_back(method.substr(from));
+  return out;
+}
+
+void rows(const std::string& what, int count, char** methods, const Context& context) {
+  std::map<std::string, Scene> scenes = {{"", bench::load_scene(what, context)}};  // by filters
+  for (int i = 0; i < count; ++i) {
+    std::string filters;
+    const auto chain = parts(methods[i]);
+    for (std::size_t f = 0; f + 1 < chain.size(); ++f) {
+      const Scene& before = scenes.at(filters);
+      filters += chain[f] + " | ";
+      if (!scenes.contains(filters)) scenes[filters] = bench::filtered(before, chain[f], context);
+    }
+    print_row(scenes.at(filters), methods[i], chain.back(), context);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: bench_recognizers QUERY REFERENCE [SCAN_CONTEXT_PARAMS...]\n");
+  char** const bar = std::find_if(argv, argv + argc, [](char* a) { return !std::strcmp(a, "--"); });
+  if (bar == argv + 1 || bar + 1 >= argv + argc) {
+    std::fprintf(stderr, "usage: bench_recognizers SCENE... -- METHOD...\n");
     return 2;
   }
   const auto context = cambium::testing::make_context();
-  const Scene scene = load(argv[1], argv[2], *context);
   std::printf(
-      "| parameters | R@1 5 m [%%] | R@5 5 m | R@1 10 m | R@5 10 m | lowest right | highest wrong "
-      "| describe [ms/scan] | match [us/pair] |\n|---|---|---|---|---|---|---|---|---|\n");
-  for (int i = 3; i < argc; ++i) print_row(scene, argv[i], *context);
-  if (argc == 3) print_row(scene, "{}", *context);
+      "| scene | method | queries | R@1 [%%] | R@5 | R@1 at 100 %% precision | guess (median) | "
+      "describe [ms/scan] | match [us/pair] |\n|---|---|---|---|---|---|---|---|---|\n");
+  for (char** scene = argv + 1; scene != bar; ++scene)
+    rows(*scene, int(argv + argc - bar - 1), bar + 1, *context);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
   return 1;

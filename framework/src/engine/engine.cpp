@@ -50,6 +50,7 @@ Engine::Engine(const EngineOptions& options, Progress& progress)
     : progress_(progress),
       cancelled_(options.cancelled),
       threads_(thread_count(options.threads)),
+      allowed_(tbb::global_control::max_allowed_parallelism, std::size_t(threads_)),
       arena_(threads_),
       cache_(options.cache,
              [&progress](const std::string& text) { progress.log(LogLevel::warning, text); }),

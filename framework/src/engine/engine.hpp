@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "engine/cache.hpp"
@@ -68,6 +69,7 @@ class Engine {
   Progress& progress_;
   const std::atomic<bool>* cancelled_;
   int threads_;
+  tbb::global_control allowed_;  ///< TBB has as many threads as cores, whatever an arena asks for
   mutable tbb::task_arena arena_;
   Cache cache_;
   std::shared_ptr<MemoryStore> store_;

@@ -8,7 +8,7 @@
 
 #include "cambium/files.hpp"
 #include "engine/program.hpp"
-#include "matrix/child.hpp"
+#include "engine/child.hpp"
 #include "simulate/simulate.hpp"
 #include "simulate/spec_file.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One run of a cell as a command and the files it leaves.
 #pragma once
-#include "matrix/child.hpp"
+#include "engine/child.hpp"
 #include "matrix/run_cells.hpp"
 #include "matrix/schedule.hpp"
 

@@ -30,16 +30,31 @@ class ElfFile {
     check_whole();
   }
 
-  std::optional<Symbol> find(std::string_view name) const {
+  struct Named {
+    std::string_view name;
+    Symbol symbol;
+  };
+  /// The symbols that the library defines for others.
+  std::vector<Named> exported() const {
+    std::vector<Named> out;
     for (std::size_t i = 0; i < header_.e_shnum; ++i) {
       const auto table = section(i);
       if (table.sh_type != SHT_DYNSYM) continue;
       const auto names = bytes(section(table.sh_link).sh_offset, section(table.sh_link).sh_size);
       for (std::size_t at = 0; at + sizeof(Symbol) <= table.sh_size; at += sizeof(Symbol)) {
         const auto symbol = read<Symbol>(table.sh_offset + at);
-        if (symbol.st_shndx != SHN_UNDEF && name_at(names, symbol.st_name) == name) return symbol;
+        const int binding = symbol.st_info >> 4;
+        // SHN_ABS: the names of versions, which the linker writes beside the symbols.
+        if (symbol.st_shndx != SHN_UNDEF && symbol.st_shndx != SHN_ABS && binding != STB_LOCAL)
+          out.push_back({name_at(names, symbol.st_name), symbol});
       }
     }
+    return out;
+  }
+
+  std::optional<Symbol> find(std::string_view name) const {
+    for (const Named& named : exported())
+      if (named.name == name) return named.symbol;
     return std::nullopt;
   }
 
@@ -114,6 +129,12 @@ std::optional<std::string> exported_data(std::string_view file, std::string_view
   if ((found->st_info & 0xf) != STT_OBJECT)
     elf.fail("exports '" + std::string(symbol) + "', but not as data");
   return elf.content(*found);
+}
+
+std::vector<std::string> exported_symbols(std::string_view file, const std::string& where) {
+  std::vector<std::string> out;
+  for (const auto& named : ElfFile(file, where).exported()) out.emplace_back(named.name);
+  return out;
 }
 
 }  // namespace cambium

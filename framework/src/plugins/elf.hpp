@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cambium {
 
@@ -15,5 +16,9 @@ namespace cambium {
 /// when the file is cut short, or when the symbol is no data.
 std::optional<std::string> exported_data(std::string_view file, std::string_view symbol,
                                          const std::string& where);
+
+/// The names of all symbols that the library offers to others, as they stand in its table. Throws
+/// as above.
+std::vector<std::string> exported_symbols(std::string_view file, const std::string& where);
 
 }  // namespace cambium

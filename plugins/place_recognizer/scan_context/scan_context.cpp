@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Place recognition by Scan Context (Kim & Kim, IROS 2018), exact over all column shifts.
-#include <algorithm>
+#include <numbers>
 
 #include "cambium/plugin.hpp"
-#include "descriptor.hpp"
-#include "search.hpp"
+#include "common/levelled.hpp"
+#include "common/polar.hpp"
+#include "common/search.hpp"
+#include "viewpoints.hpp"
 
 namespace scan_context {
 
 using namespace cambium;
 
-// A row of the fingerprints: the columns of the descriptor, then q_level_base as x y z w.
-constexpr std::size_t rotation_size = 4;
+// A row of the fingerprints: the descriptor of each viewpoint, then q_level_base. The rest of them
+// are the tiles that a search reads.
 
 class ScanContext final : public PlaceRecognizer {
  public:
   void params(ParamVisitor& v) override {
-    v("rings", grid_.rings, "Rings of the polar grid", between(1, 200));
-    v("sectors", grid_.sectors, "Sectors of the polar grid", between(4, 720));
+    v("rings", grid_.shape.rings, "Rings of the polar grid", between(1, 200));
+    v("sectors", grid_.shape.sectors, "Sectors of the polar grid", between(4, columns::most_sectors));
     v("max_range", grid_.max_range, "Horizontal radius of the grid", above(0.0, "m"));
     v("height_offset", grid_.height_offset,
       "Points up to this far below the base count, lower ones do not", in_unit("m"));
@@ -38,21 +40,23 @@ class ScanContext final : public PlaceRecognizer {
 
   Fingerprints describe(const MissionView& mission, const Context& context) const override {
     const auto views = viewpoints(view_radius_, view_step_);
-    const std::size_t bins = grid_.bins();
-    Fingerprints out{mission.size(), views.size() * bins + rotation_size, {}, {}};
+    const std::size_t bins = grid_.shape.bins();
+    Fingerprints out{mission.size(), views.size() * bins + columns::rotation_size, {}, {}};
     out.table.resize(out.rows * out.cols, 0.0f);
+    out.extra.resize(columns::tile_bytes(out.rows, grid_.shape));
     context.parallel_for(out.rows, [&](std::size_t i) {
       context.check_cancelled();
       const std::span<float> row{out.table.data() + i * out.cols, out.cols};
       Quat q_level_base = Quat::Identity();
-      if (level_) q_level_base = level_rotation(mission.mission().nodes[i].T_mission_node);
-      std::copy_n(q_level_base.coeffs().data(), rotation_size, row.last(rotation_size).begin());
+      if (level_) q_level_base = columns::level_rotation(mission.mission().nodes[i].T_mission_node);
+      columns::write_rotation(q_level_base, row.last(columns::rotation_size));
       const Payload payload = mission.payload(i);
       if (!payload.cloud) return;  // an empty descriptor matches nothing
-      const Cloud::Matrix3X points = levelled(*payload.cloud, q_level_base);
+      const Cloud::Matrix3X points = columns::levelled(*payload.cloud, q_level_base);
       for (std::size_t v = 0; v < views.size(); ++v)
-        scan_context::describe(points, grid_, views[v], row.subspan(v * bins, bins));
+        columns::describe(points, grid_, views[v], row.subspan(v * bins, bins));
     });
+    columns::encode_tiles(out, {out, grid_.shape}, context);
     return out;
   }
 
@@ -61,18 +65,16 @@ class ScanContext final : public PlaceRecognizer {
     check_size(query);
     check_size(reference);
     const auto views = viewpoints(view_radius_, view_step_);
-    std::vector<Spectra> queries;
-    for (std::size_t v = 0; v < views.size(); ++v)
-      queries.emplace_back(query, v * grid_.bins(), grid_.rings, grid_.sectors);
-    const Spectra references(reference, 0, grid_.rings, grid_.sectors);
-    const auto matches = search(queries, references, pairing, limits_, context);
+    const auto matches = columns::search({query, grid_.shape, views.size()},
+                                         {reference, grid_.shape}, pairing, limits_, context);
     std::vector<Candidate> out;
     for (std::size_t q = 0; q < matches.size(); ++q)
-      for (const Match& m : matches[q]) {
+      for (const columns::Match& m : matches[q]) {
         // The reference's base is taken to stand at the viewpoint.
         const Eigen::Vector2d from = views[m.view].cast<double>();
+        const double yaw = 2.0 * std::numbers::pi * m.shift / grid_.shape.sectors;
         const SE3 T_reference_query =
-            level_base(reference, m.reference).inverse() * SE3::from_yaw(m.yaw) *
+            level_base(reference, m.reference).inverse() * SE3::from_yaw(yaw) *
             SE3{Quat::Identity(), Vec3(-from.x(), -from.y(), 0.0)} * level_base(query, q);
         out.push_back({q, m.reference, 1.0 - m.distance, T_reference_query});
       }
@@ -81,23 +83,23 @@ class ScanContext final : public PlaceRecognizer {
 
  private:
   static SE3 level_base(const Fingerprints& fingerprints, std::size_t node) {
-    const std::span<const float> q = fingerprints.row(node).last(rotation_size);
-    return {Quat(q[3], q[0], q[1], q[2]).normalized(), Vec3::Zero()};
+    return columns::T_level_base(fingerprints.row(node).last(columns::rotation_size));
   }
 
   // A pipeline may give platforms other parameters; their descriptors cannot be compared.
   void check_size(const Fingerprints& fingerprints) const {
     const std::size_t expected =
-        viewpoints(view_radius_, view_step_).size() * grid_.bins() + rotation_size;
-    if (fingerprints.cols != expected)
+        viewpoints(view_radius_, view_step_).size() * grid_.shape.bins() + columns::rotation_size;
+    if (fingerprints.cols != expected ||
+        fingerprints.extra.size() != columns::tile_bytes(fingerprints.rows, grid_.shape))
       throw Error(ErrorCode::config, "scan_context",
                   "a mission was described with " + std::to_string(fingerprints.cols) +
                       " numbers a node, expected " + std::to_string(expected) +
                       "; give rings, sectors and views the same values for all platforms");
   }
 
-  Grid grid_;
-  Limits limits_;
+  columns::PolarGrid grid_;
+  columns::Limits limits_;
   bool level_ = true;
   double view_radius_ = 0.0;
   double view_step_ = 2.0;

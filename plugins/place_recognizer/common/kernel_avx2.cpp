@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/kernel_x86.hpp"
+
+#ifdef COLUMNS_X86
+#include <immintrin.h>
+
+#include "common/kernel_parts.hpp"
+
+namespace columns {
+namespace {
+
+#define COLUMNS_AVX2 [[gnu::target("avx2,fma,popcnt")]]
+
+// Products of bytes, summed by four. The pairs between fit into 16 bits: see largest_code.
+COLUMNS_AVX2 inline __m256i add_products(__m256i sum, __m256i references, std::int32_t codes) {
+  const __m256i pairs = _mm256_maddubs_epi16(references, _mm256_set1_epi32(codes));
+  return _mm256_add_epi32(sum, _mm256_madd_epi16(pairs, _mm256_set1_epi16(1)));
+}
+
+/// Half of the lanes of one frequency; returns |cross|.
+COLUMNS_AVX2 [[gnu::always_inline]] inline __m256 multiply(const std::byte* codes,
+                                                           const std::byte* scales,
+                                                           const CoarseQuery& query, std::size_t f,
+                                                           std::size_t groups, float* cross,
+                                                           std::size_t ahead) {
+  const std::int8_t* of_query = query.codes.data() + f * 8 * groups;
+  __m256i re = _mm256_set1_epi32(query.offsets[2 * f]);
+  __m256i im = _mm256_set1_epi32(query.offsets[2 * f + 1]);
+#pragma GCC unroll 10
+  for (std::size_t g = 0; g < groups; ++g, codes += 64, of_query += 4) {
+    if (ahead != 0) _mm_prefetch(codes + ahead, _MM_HINT_T1);
+    std::int32_t real, imaginary;
+    std::memcpy(&real, of_query, 4);
+    std::memcpy(&imaginary, of_query + 4 * groups, 4);
+    const __m256i references = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(codes));
+    re = add_products(re, references, real);
+    im = add_products(im, references, imaginary);
+  }
+  const __m256i half =
+      _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(scales)));
+  const __m256 scale = _mm256_mul_ps(_mm256_castsi256_ps(_mm256_slli_epi32(half, 16)),
+                                     _mm256_set1_ps(query.gains[f]));
+  const __m256 x = _mm256_mul_ps(_mm256_cvtepi32_ps(re), scale);
+  const __m256 y = _mm256_mul_ps(_mm256_cvtepi32_ps(im), scale);
+  _mm256_storeu_ps(cross, x);
+  _mm256_storeu_ps(cross + lanes, y);
+  const __m256 square =
+      _mm256_max_ps(_mm256_fmadd_ps(x, x, _mm256_mul_ps(y, y)), _mm256_set1_ps(1e-30f));
+  return _mm256_mul_ps(square, _mm256_rsqrt_ps(square));
+}
+
+/// `groups` is shape.groups(); where the compiler knows it, it unrolls the inner loop.
+COLUMNS_AVX2 [[gnu::always_inline]] inline unsigned screen_groups(Shape shape, std::size_t groups,
+                                                                  const std::byte* tile,
+                                                                  const CoarseQuery& query,
+                                                                  const Screening& screening,
+                                                                  float* cross) {
+  const TileLayout layout(shape);
+  __m256 sum[2] = {_mm256_setzero_ps(), _mm256_setzero_ps()};
+  for (std::size_t f = 0; f < shape.frequencies(); ++f)
+    for (std::size_t half = 0; half < 2; ++half)
+      sum[half] = _mm256_add_ps(
+          sum[half], multiply(tile + f * groups * 64 + half * 32,
+                              tile + layout.scales + f * lanes * 2 + half * lanes, query, f, groups,
+                              cross + 2 * f * lanes + half * lanes / 2,
+                              half == 0 && screening.fetch_ahead ? layout.bytes : 0));
+  Lanes sums;
+  std::memcpy(&sums, sum, sizeof sums);
+  return possible(shape, tile, query, screening, sums * (1.0f + 0x1p-10f));  // rsqrt: 1.5 * 2^-12
+}
+
+COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
+                             const Screening& screening, float* cross) {
+  if (shape.groups() == usual_groups)
+    return screen_groups(shape, usual_groups, tile, query, screening, cross);
+  return screen_groups(shape, shape.groups(), tile, query, screening, cross);
+}
+
+COLUMNS_AVX2 unsigned weigh(const InverseTransform& inverse, const std::byte* tile,
+                            const CoarseQuery& query, const Screening& screening,
+                            const float* cross, unsigned possible, float* sums) {
+  return weigh_lanes(inverse, tile, query, screening, cross, possible, sums);
+}
+
+COLUMNS_AVX2 float dot(const float* a, const float* b, std::size_t count) {
+  return dot_product(a, b, count);
+}
+
+}  // namespace
+
+const Kernel avx2_kernel = {"avx2", screen, weigh, dot};
+
+bool can_run_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
+
+}  // namespace columns
+#endif

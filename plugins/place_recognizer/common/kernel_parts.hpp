@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all kernels share, inlined into each and so compiled for its instruction set.
+#pragma once
+#include <bit>
+#include <cstring>
+
+#include "common/kernel.hpp"
+
+namespace columns {
+
+/// One number a lane; the compiler splits it where registers are shorter.
+typedef float Lanes __attribute__((vector_size(lanes * sizeof(float))));
+typedef std::int32_t LaneMask __attribute__((vector_size(lanes * sizeof(std::int32_t))));
+
+/// Of descriptors with 20 rings.
+constexpr std::size_t usual_groups = 10;
+
+[[gnu::always_inline]] inline void load(Lanes& to, const void* from) {
+  std::memcpy(&to, from, sizeof(Lanes));
+}
+
+/// Lanes whose largest sum, at most `sums`, allows for a distance that is tolerated:
+/// 1 - S / n <= d means S >= (1 - d) n, and both have filled n >= a + b - sectors columns.
+[[gnu::always_inline]] inline unsigned possible(Shape shape, const std::byte* tile,
+                                                const CoarseQuery& query,
+                                                const Screening& screening, const Lanes& sums) {
+  const TileLayout layout(shape);
+  Lanes error, norm, filled;
+  load(error, tile + layout.error);
+  load(norm, tile + layout.norm);
+  load(filled, tile + layout.filled);
+  const float more = float(query.filled - shape.sectors), least = screening.least_columns;
+  const float wanted = 1.0f - screening.tolerated - 1e-5f;
+  Lanes common = filled + more;
+  common = common > least ? common : common * 0.0f + least;
+  const Lanes reachable = sums + query.per_error * error + query.per_norm * norm;
+  const LaneMask good = (reachable >= wanted * common) & (filled >= least);
+  unsigned bits = 0;
+  for (std::size_t lane = 0; lane < lanes; ++lane) bits |= unsigned(good[lane] & 1) << lane;
+  return float(query.filled) >= least ? bits : 0u;
+}
+
+/// The lane has a shift whose sum allows for a distance that is tolerated.
+[[gnu::always_inline]] inline bool has_shift(Shape shape, const std::byte* tile,
+                                             const CoarseQuery& query, const Screening& screening,
+                                             const float* sums, std::size_t lane) {
+  const TileLayout layout(shape);
+  const std::size_t words = shape.words();
+  std::uint64_t mask[most_words];
+  std::memcpy(mask, tile + layout.masks + lane * words * 8, words * 8);
+  const float error = query.per_error * read<float>(tile + layout.error, lane) +
+                      query.per_norm * read<float>(tile + layout.norm, lane);
+  const float wanted = 1.0f - screening.tolerated - 1e-5f;
+  const std::uint64_t* shifted = query.overlap.shifted();
+  bool found = false;
+  for (std::size_t k = 0; k < std::size_t(shape.sectors); ++k, shifted += words) {
+    int n = 0;
+    for (std::size_t w = 0; w < words; ++w) n += std::popcount(shifted[w] & mask[w]);
+    found |= (float(n) >= screening.least_columns) &
+             (sums[k * lanes + lane] + error >= wanted * float(n));
+  }
+  return found;
+}
+
+/// Sums over every `stride`-th frequency from `parity` on, for four shifts from `first` on.
+struct FourShifts {
+  Lanes cosines[4] = {}, sines[4] = {};
+};
+[[gnu::always_inline]] inline void add_frequencies(const InverseTransform& inverse,
+                                                   const float* cross, std::size_t first,
+                                                   std::size_t parity, std::size_t stride,
+                                                   FourShifts& to) {
+  const std::size_t F = inverse.shape.frequencies();
+  const float* cosine = inverse.cosine.data() + first * F;
+  const float* sine = inverse.sine.data() + first * F;
+  for (std::size_t f = parity; f < F; f += stride) {
+    Lanes real, imaginary;
+    load(real, cross + 2 * f * lanes);
+    load(imaginary, cross + (2 * f + 1) * lanes);
+    for (std::size_t j = 0; j < 4; ++j) {
+      to.cosines[j] += real * cosine[j * F + f];
+      to.sines[j] += imaginary * sine[j * F + f];
+    }
+  }
+}
+
+/// S(k) and S(-k), from the sum of Re cos and that of Im sin.
+[[gnu::always_inline]] inline void write_pair(const Lanes& cosines, const Lanes& sines,
+                                              std::size_t k, std::size_t sectors, float* sums,
+                                              Lanes& largest) {
+  const Lanes ahead = cosines - sines, behind = cosines + sines;
+  const Lanes larger = ahead > behind ? ahead : behind;
+  largest = larger > largest ? larger : largest;
+  std::memcpy(sums + k * lanes, &ahead, sizeof(Lanes));
+  std::memcpy(sums + (sectors - k) % sectors * lanes, &behind, sizeof(Lanes));
+}
+
+/// All S(k), and the largest of each lane. k and -k share their products; so do k and
+/// sectors / 2 - k where that is whole, up to the sign of every second frequency.
+[[gnu::always_inline]] inline void all_shifts(const InverseTransform& inverse, const float* cross,
+                                              float* sums, Lanes& largest) {
+  const auto sectors = std::size_t(inverse.shape.sectors);
+  const bool folds = sectors % 2 == 0;
+  const std::size_t last = folds ? sectors / 4 : sectors / 2;
+  for (std::size_t first = 0; first <= last; first += 4) {
+    FourShifts even, odd;
+    add_frequencies(inverse, cross, first, 0, folds ? 2 : 1, even);
+    if (folds) add_frequencies(inverse, cross, first, 1, 2, odd);
+    for (std::size_t j = 0; j < 4 && first + j <= last; ++j) {
+      const std::size_t k = first + j;
+      write_pair(even.cosines[j] + odd.cosines[j], even.sines[j] + odd.sines[j], k, sectors, sums,
+                 largest);
+      if (folds)
+        write_pair(even.cosines[j] - odd.cosines[j], odd.sines[j] - even.sines[j], sectors / 2 - k,
+                   sectors, sums, largest);
+    }
+  }
+}
+
+[[gnu::always_inline]] inline unsigned weigh_lanes(const InverseTransform& inverse,
+                                                   const std::byte* tile, const CoarseQuery& query,
+                                                   const Screening& screening, const float* cross,
+                                                   unsigned lanes_in_question, float* sums) {
+  const Shape shape = inverse.shape;
+  Lanes largest = {};
+  all_shifts(inverse, cross, sums, largest);
+  unsigned good = lanes_in_question & possible(shape, tile, query, screening, largest);
+  if (query.filled == shape.sectors) return good;  // the references' own columns count, all of them
+  for (unsigned left = good; left != 0; left &= left - 1) {
+    const auto lane = std::size_t(std::countr_zero(left));
+    if (!has_shift(shape, tile, query, screening, sums, lane)) good &= ~(1u << lane);
+  }
+  return good;
+}
+
+[[gnu::always_inline]] inline float dot_product(const float* a, const float* b, std::size_t count) {
+  Lanes sums = {};
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    Lanes x, y;
+    load(x, a + i);
+    load(y, b + i);
+    sums += x * y;
+  }
+  float sum = 0;
+  for (std::size_t lane = 0; lane < lanes; ++lane) sum += sums[lane];
+  for (; i < count; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace columns
