@@ -55,6 +55,14 @@ void expect_one_good_map(const Fused& fused) {
 
 TEST(Adversary, MissionsThatNeverMeetAreIslands) { expect_two_islands(fuse("never_meet")); }
 
+TEST(Adversary, ExtractedStemsTieNothingInAPlantationOrAClearing) {
+  const Fused lattice = fuse("plantation_lattice", pipeline("fuse_stems.yaml"));
+  expect_two_islands(lattice);
+  // It is not for want of trees: both missions found some that are the same.
+  EXPECT_GE(lattice.value("duplicate_stems.matched"), 10);
+  expect_two_islands(fuse("empty_clearing", pipeline("fuse_stems.yaml")));
+}
+
 TEST(Adversary, APlantationLatticeTiesNothing) {
   expect_two_islands(fuse("plantation_lattice"));
   expect_two_islands(fuse("plantation_lattice", pipeline("fuse_scans.yaml")));

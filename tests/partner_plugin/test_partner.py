@@ -26,6 +26,10 @@ def run(*command, **options):
     return done.stdout
 
 
+KINDS = ("mission_reader", "payload_filter", "place_recognizer", "registration", "loop_verifier",
+         "solver", "gnss_aligner", "map_exporter", "evaluator")
+
+
 class Partner(unittest.TestCase):
     source = build = shipped = None
 
@@ -77,6 +81,25 @@ class Partner(unittest.TestCase):
             run("cmake", *command, env=self.environment)
         self.addCleanup(lambda: next(self.prefix.rglob("ring_key.so")).unlink())
         self.assertIn("ring_key", self.shell("cambium plugins list", self.work))
+
+    def test_new_plugins_of_every_kind_build_keep_the_laws_and_run(self):
+        folder = self.work / "new"
+        folder.mkdir()
+        for kind in KINDS:
+            self.shell(f"cambium plugins new {kind} new_{kind}", folder)
+            (folder / f"new_{kind}" / "missions").symlink_to("../missions")
+        (folder / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(all LANGUAGES CXX)\nenable_testing()\n"
+            + "".join(f"add_subdirectory(new_{kind})\n" for kind in KINDS))
+        self.shell("cmake -S . -B build -DCMAKE_BUILD_TYPE=Release\ncmake --build build -j2\n"
+                   "ctest --test-dir build -j2 --output-on-failure\n"
+                   "cambium simulate new_solver/forest.yaml missions", folder)
+        for kind in KINDS:
+            self.shell(f"cambium run new_{kind}/new_{kind}.yaml --out out_{kind} "
+                       f"--plugin-path build/new_{kind}/new_{kind}.so", folder)
+            steps = json.loads((folder / f"out_{kind}/report.json").read_text())["steps"]
+            if kind != "mission_reader":
+                self.assertIn(f"new_{kind}", [step["plugin"] for step in steps])
 
     def test_a_shipped_plugin_builds_outside_the_tree(self):
         name = Path(self.shipped).name

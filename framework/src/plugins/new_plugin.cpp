@@ -54,7 +54,7 @@ std::vector<fs::path> write_new_plugin(Kind kind, const std::string& name, const
   const std::pair<std::string, std::string> files[] = {{word + ".cpp", name + ".cpp"},
                                                        {word + ".yaml", name + ".yaml"},
                                                        {"CMakeLists.txt.in", "CMakeLists.txt"},
-                                                       {"README.md.in", "README.md"},
+                                                       {"README.md", "README.md"},
                                                        {"forest.yaml.in", "forest.yaml"}};
   std::vector<fs::path> written;
   for (const auto& [from, to] : files) {

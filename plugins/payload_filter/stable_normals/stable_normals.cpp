@@ -65,7 +65,6 @@ class StableNormals final : public PayloadFilter {
     const Vector3f none = Vector3f::Zero();
     const float angle = std::cos(float(max_angle_));
     if (small.points < min_points_) return none;
-    if (small.variation > max_variation_ || large.variation > max_variation_) return none;
     if (small.linearity >= min_linearity_) {
       if (std::abs(small.direction.dot(up)) < std::cos(float(max_lean_))) return none;
       if (std::abs(small.direction.dot(large.direction)) < angle) return none;
@@ -73,15 +72,16 @@ class StableNormals final : public PayloadFilter {
       const Vector3f d = p - small.mean, off = d - d.dot(small.direction) * small.direction;
       return off.squaredNorm() > 0 ? Vector3f(off.normalized()) : small.normal;
     }
+    if (small.variation > max_variation_ || large.variation > max_variation_) return none;
     if (std::abs(small.normal.dot(large.normal)) < angle) return none;
     return small.normal.dot(p) > 0 ? Vector3f(-small.normal) : small.normal;
   }
 
-  double radius_ = 0.15;
-  double scale_ = 2.0;
+  double radius_ = 0.2;
+  double scale_ = 1.5;
   int min_points_ = 6;
   double max_angle_ = 0.35;
-  double max_variation_ = 0.12;
+  double max_variation_ = 0.1;
   double min_linearity_ = 0.8;
   double max_lean_ = 0.35;
   bool normals_ = true;

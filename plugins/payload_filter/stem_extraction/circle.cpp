@@ -2,6 +2,7 @@
 #include "circle.hpp"
 
 #include <array>
+#include <limits>
 
 namespace stem_extraction {
 namespace {
@@ -64,7 +65,7 @@ std::optional<Circle> sample_circle(const std::vector<Vector2d>& all, double min
   if (points.size() < 3) return std::nullopt;
   Random random(seed);
   std::optional<Circle> best;
-  double most = 0;
+  double most = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < samples; ++i) {
     const auto one = [&] { return points[random.below(points.size())]; };
     const Vector2d a = one(), b = one(), c = one();

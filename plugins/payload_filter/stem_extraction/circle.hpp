@@ -28,9 +28,9 @@ inline std::size_t sector(double x, double y) {
 }
 constexpr std::size_t sectors = 16;
 
-/// The circle with radius within the limits that most points lie on, of many through three of
+/// The circle with a radius within the limits that most points lie on, of many through three of
 /// them (MSAC; Torr & Zisserman, CVIU 2000). A crowd on one side counts for less than the same
-/// number spread around, and points deep inside speak against it: rays do not enter stems.
+/// number spread around, and points deep inside speak against a circle: rays do not enter stems.
 std::optional<Circle> sample_circle(const std::vector<Eigen::Vector2d>& points, double min_radius,
                                     double max_radius, std::uint64_t seed);
 

@@ -22,6 +22,7 @@ class Ground {
 
   /// Interpolated between the nodes of the grid; NaN where nothing is known of the ground.
   float height(float x, float y) const;
+  double range() const { return range_; }
 
  private:
   int index(int ix, int iy) const { return iy * width_ + ix; }

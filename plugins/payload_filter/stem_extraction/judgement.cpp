@@ -21,7 +21,7 @@ using Layers = std::array<Layer, layers>;
 
 Layers count(const Stem& stem, const Points& points, double tolerance) {
   Layers out{};
-  for (const Eigen::Vector3d& p : points) {
+  for (const auto& [p, ray] : points) {
     const double bin = std::floor((p.z() - lowest) / layer);
     if (bin < 0 || bin >= double(layers)) continue;
     Layer& l = out[std::size_t(bin)];

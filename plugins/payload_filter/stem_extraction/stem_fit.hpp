@@ -8,10 +8,17 @@
 
 namespace stem_extraction {
 
-constexpr double breast_height = 1.3;  ///< above the ground [m]
+constexpr double breast_height = 1.3;                        ///< above the ground [m]
+constexpr double lowest_fitted = 0.5, highest_fitted = 3.0;  ///< of the points that count [m]
+/// Of the radius a metre of height: Scots pines and spruces lose about a centimetre of diameter a
+/// metre around breast height.
+constexpr double usual_taper = -0.006;
 
-/// x, y from the candidate, z above the ground at the candidate [m].
-using Points = std::vector<Eigen::Vector3d>;
+struct Point {
+  Eigen::Vector3d position;   ///< x, y from the candidate, z above the ground there [m]
+  Eigen::Vector2d ray{0, 0};  ///< from the sensor, unit length; zero where that is not known
+};
+using Points = std::vector<Point>;
 
 struct FitLimits {
   double min_dbh = 0.05, max_dbh = 0.8;  ///< [m]
@@ -24,7 +31,7 @@ struct Stem {
   Eigen::Vector2d center{0, 0};  ///< of the axis at breast height
   Eigen::Vector2d lean{0, 0};    ///< how far the axis moves on a metre of height
   double radius = 0;             ///< at breast height [m]
-  double taper = 0;
+  double taper = usual_taper;
   double sigma = 0;     ///< of the distances of its points from the surface [m]
   int points = 0;       ///< near the surface, where it was fitted
   double coverage = 0;  ///< share of the directions around the axis that have points, 0..1
@@ -36,9 +43,9 @@ struct Stem {
   double residual(const Eigen::Vector3d& p) const;
 };
 
-/// Robust least squares on the distances of points from the surface, from the stem that is given.
-/// An arc of one side counts for no more than the other side, and the noise's bias of a fitted
-/// radius, sigma^2 / (2 radius), is taken off (Chernov, "Circular and Linear Regression", 2010).
+/// Robust least squares from the stem that is given. Where rays are known, on the distances along
+/// them: the noise of a lidar is in the range, and a fit on distances across the surface makes
+/// stems too thin that are seen from one side only. Else on the distances across the surface.
 /// False where too few points lie on it, or where it grows out of the limits.
 bool polish(const Points& points, const FitLimits& limits, int iterations, Stem& stem);
 

@@ -12,7 +12,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double lowest = 0.5, highest = 3.0;  // of what is looked at, above the ground [m]
 constexpr double sigma_point = 0.02, sigma_shift = 0.05, sigma_turn = 0.005;  // [m], [m], [rad]
 
 /// What the views saw near one stem.
@@ -29,17 +28,18 @@ std::vector<Seen> near_stems(const std::vector<Found>& trees, const std::vector<
     const Vector2d at = f.stem.center;
     columns.visit(float(at.x()), float(at.y()), float(f.stem.radius + 0.25), [&](const Above& p) {
       const Vector3d q(p.position.x(), p.position.y(), p.position.z() - f.ground);
-      if (q.z() < lowest || q.z() > highest || std::abs(f.stem.residual(q)) > 0.15) return;
-      out[i].raw.push_back(q);
+      if (q.z() < lowest_fitted || q.z() > highest_fitted || std::abs(f.stem.residual(q)) > 0.15)
+        return;
+      out[i].raw.push_back({q});
       out[i].view.push_back(p.view);
     });
   }
   return out;
 }
 
-Vector3d moved(const View& view, const Vector3d& p) {
-  const Vector2d q = view.corrected(p.head<2>());
-  return {q.x(), q.y(), p.z()};
+Point moved(const View& view, const Point& p) {
+  const Vector2d q = view.corrected(p.position.head<2>());
+  return {{q.x(), q.y(), p.position.z()}};
 }
 
 /// One Gauss-Newton step of every view's correction, Tukey's weights.
@@ -50,7 +50,7 @@ void correct(const std::vector<Seen>& seen, const std::vector<Found>& trees, std
   for (std::size_t i = 0; i < seen.size(); ++i)
     for (std::size_t k = 0; k < seen[i].raw.size(); ++k) {
       const std::size_t v = seen[i].view[k];
-      const Vector3d p = moved(views[v], seen[i].raw[k]);
+      const Vector3d p = moved(views[v], seen[i].raw[k]).position;
       const double e = trees[i].stem.residual(p), u = e / cutoff;
       if (std::abs(u) >= 1) continue;
       const Vector2d n = trees[i].stem.off_axis(p).head<2>().normalized();
