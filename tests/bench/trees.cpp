@@ -146,7 +146,10 @@ int main(int argc, char** argv) try {
       judge(own[q], own[r], q == r, limit, *recognizer, q == r ? within : between);
   print(set + ", between missions", between);
   print(set + ", within missions", within);
-  print(set + ", far away", far_queries(own, other, *recognizer));
+  const Result far = far_queries(own, other, *recognizer);
+  std::printf(
+      "another forest, and pieces of the own one: %zu queries farther than 80 m, %zu accepted\n",
+      far.far, far.far_accepted);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
   return 1;
