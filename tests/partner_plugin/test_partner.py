@@ -105,6 +105,9 @@ class Partner(unittest.TestCase):
         name = Path(self.shipped).name
         folder = self.work / "shipped" / name
         shutil.copytree(Path(self.source, self.shipped), folder)
+        library = next(self.prefix.rglob(f"{name}.so"))
+        shutil.copy(library, self.work)
+        self.addCleanup(lambda: shutil.copy(self.work / f"{name}.so", library))
         self.shell("cmake -S . -B build -DCMAKE_BUILD_TYPE=Release\ncmake --build build\n"
                    f"find {self.prefix} -name {name}.so -delete\n", folder)
         listed = self.shell(f"cambium plugins list --plugin-path build/{name}.so", folder)

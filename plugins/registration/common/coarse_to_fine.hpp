@@ -64,7 +64,7 @@ class CoarseToFine : public Registration {
   double overlap_distance_ = 0.5;
   double min_overlap_ = 0.5;
   double max_rmse_ = 0.2;
-  double max_seen_through_ = 0.1;
+  double max_seen_through_ = 1.0;  ///< off: foliage lets rays pass
 
  private:
   Level make_level(const Thinned& cloud, int source_points) const;
