@@ -55,7 +55,7 @@ class CoarseToFine : public Registration {
   double voxel_size_ = 0.4;
   double coarse_voxel_size_ = 1.0;
   int neighbours_ = 10;
-  double max_correspondence_distance_ = 1.0;
+  double max_correspondence_distance_ = 0.5;
   double coarse_correspondence_distance_ = 4.0;
   int max_iterations_ = 30;
   double translation_epsilon_ = 0.002;
