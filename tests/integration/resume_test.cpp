@@ -3,6 +3,7 @@
 // an undisturbed run and repeats no work item that was finished.
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <map>
@@ -30,7 +31,7 @@ constexpr const char* steps =
     "  - register: gicp\n    params: {min_overlap: 0.2}\n  - verify: pairwise_consistency\n  - "
     "optimize: ceres\n"
     "  - recognize: scan_context\n    params: {candidates: 1}\n"
-    "  - register: icp_point_to_plane\n    params: {min_overlap: 0.2}\n  - verify: "
+    "  - register: ndt\n    params: {min_overlap: 0.2}\n  - verify: "
     "pairwise_consistency\n  - optimize: ceres\n"
     "  - evaluate: ate\n  - export: plan\n  - export: cloud\n";
 
@@ -67,10 +68,8 @@ class Resume : public ::testing::Test {
     write_file(*folder_ / "p.yaml", steps);
     const auto made = run_cambium({"simulate", path("spec.yaml"), path("missions"), "--quiet"});
     ASSERT_EQ(made.code, 0) << made.err;
-    const auto begin = std::chrono::steady_clock::now();
-    const auto outcome = run_cambium(arguments("undisturbed"));
-    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    // The shorter of two, so that kills fall into the run however busy the machine is meanwhile.
+    seconds_ = std::min(run_undisturbed("undisturbed"), run_undisturbed("undisturbed_again"));
     undisturbed_ = contents(path("undisturbed"));
     ASSERT_GT(undisturbed_.size(), 6u);
   }
@@ -80,6 +79,13 @@ class Resume : public ::testing::Test {
   static std::vector<std::string> arguments(const std::string& name) {
     return {"run",      path("p.yaml"), path("missions/a"),    path("missions/b"), "--out",
             path(name), "--cache",      path(name + "_cache"), "--threads",        "2"};
+  }
+
+  static double run_undisturbed(const std::string& name) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto outcome = run_cambium(arguments(name));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
   // What is in the folder of a run that ended early is whole: the bytes of the undisturbed run.
