@@ -29,7 +29,7 @@ COLUMNS_AVX512 [[gnu::always_inline]] inline unsigned screen_groups(Shape shape,
   for (std::size_t f = 0; f < shape.frequencies(); ++f) {
     __m512i re = _mm512_set1_epi32(query.offsets[2 * f]);
     __m512i im = _mm512_set1_epi32(query.offsets[2 * f + 1]);
-#pragma GCC unroll 10
+#pragma GCC unroll 2
     for (std::size_t g = 0; g < groups; ++g, codes += 64, of_query += 4) {
       if (screening.fetch_ahead) _mm_prefetch(codes + layout.bytes, _MM_HINT_T1);
       std::int32_t real, imaginary;  // four codes each
