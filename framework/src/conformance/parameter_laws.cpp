@@ -25,12 +25,17 @@ void unique_names(const Subject& subject) {
               fmt::format("parameter '{}' is declared twice", params[i].name));
 }
 
+/// A fresh component with its own defaults written and read back.
+std::unique_ptr<Component> rebound(const Subject& subject, Diagnostics& diagnostics) {
+  auto component = subject.registered.create();
+  const std::string text = canonical_params(*component);
+  bind_params(*component, parse_yaml(text, "defaults", diagnostics), diagnostics);
+  return component;
+}
+
 void sound_defaults(const Subject& subject) {
-  const auto component = subject.registered.create();
   Diagnostics diagnostics;
-  bind_params(*component,
-              parse_yaml(canonical_params(*subject.registered.create()), "defaults", diagnostics),
-              diagnostics);
+  rebound(subject, diagnostics);
   try {
     diagnostics.throw_if_any();
   } catch (const Error& e) {
@@ -39,11 +44,9 @@ void sound_defaults(const Subject& subject) {
 }
 
 void round_trip(const Subject& subject) {
-  const auto fresh = subject.registered.create(), bound = subject.registered.create();
-  const std::string text = canonical_params(*fresh);
   Diagnostics diagnostics;
-  bind_params(*bound, parse_yaml(text, "defaults", diagnostics), diagnostics);
-  const std::string again = canonical_params(*bound);
+  const std::string text = canonical_params(*subject.registered.create());
+  const std::string again = canonical_params(*rebound(subject, diagnostics));
   require(text == again,
           fmt::format("parameters written and read back differ:\n  {}\n  {}", text, again));
 }
