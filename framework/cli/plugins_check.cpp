@@ -10,6 +10,7 @@
 #include "engine/child.hpp"
 #include "engine/program.hpp"
 #include "host.hpp"
+#include "plugins/search_path.hpp"
 
 namespace cambium::cli {
 namespace {
@@ -88,9 +89,10 @@ std::size_t check(const fs::path& library, const Options& o, const fs::path& fol
 
 void run(const Options& o) {
   if (!o.component.empty()) {
-    PluginLoader own;
+    PluginLoader own, all;
     own.load_file(o.libraries[0]);
-    return judge_one(o, own.registry(), o.plugins->load().registry());
+    all.load(plugin_search_path(o.plugins->path));  // without a word: what is printed counts
+    return judge_one(o, own.registry(), all.registry());
   }
   const conformance::Host host(1);
   std::size_t broken = 0;
