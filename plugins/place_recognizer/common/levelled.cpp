@@ -29,4 +29,14 @@ cambium::SE3 T_level_base(std::span<const float> q) {
   return {cambium::Quat(q[3], q[0], q[1], q[2]).normalized(), cambium::Vec3::Zero()};
 }
 
+cambium::Cloud::Matrix3X upright_points(const cambium::MissionView& mission, std::size_t node,
+                                        bool level, std::span<float> rotation) {
+  cambium::Quat q_level_base = cambium::Quat::Identity();
+  if (level) q_level_base = level_rotation(mission.mission().nodes[node].T_mission_node);
+  write_rotation(q_level_base, rotation);
+  const cambium::Payload payload = mission.payload(node);
+  if (!payload.cloud) return cambium::Cloud::Matrix3X(3, 0);
+  return levelled(*payload.cloud, q_level_base);
+}
+
 }  // namespace columns

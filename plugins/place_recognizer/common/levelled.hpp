@@ -3,7 +3,7 @@
 #pragma once
 #include <span>
 
-#include "cambium/payload.hpp"
+#include "cambium/atlas.hpp"
 
 namespace columns {
 
@@ -18,5 +18,10 @@ cambium::Cloud::Matrix3X levelled(const cambium::Cloud& cloud, const cambium::Qu
 constexpr std::size_t rotation_size = 4;
 void write_rotation(const cambium::Quat& q_level_base, std::span<float> to);
 cambium::SE3 T_level_base(std::span<const float> rotation);
+
+/// What descriptors of a node start from: the finite points of its cloud, set upright by roll and
+/// pitch of the node when `level`; none when it has no cloud. The rotation goes to `rotation`.
+cambium::Cloud::Matrix3X upright_points(const cambium::MissionView& mission, std::size_t node,
+                                        bool level, std::span<float> rotation);
 
 }  // namespace columns

@@ -19,7 +19,8 @@ class ScanContext final : public PlaceRecognizer {
  public:
   void params(ParamVisitor& v) override {
     v("rings", grid_.shape.rings, "Rings of the polar grid", between(1, 200));
-    v("sectors", grid_.shape.sectors, "Sectors of the polar grid", between(4, columns::most_sectors));
+    v("sectors", grid_.shape.sectors, "Sectors of the polar grid",
+      between(4, columns::most_sectors));
     v("max_range", grid_.max_range, "Horizontal radius of the grid", above(0.0, "m"));
     v("height_offset", grid_.height_offset,
       "Points up to this far below the base count, lower ones do not", in_unit("m"));
@@ -47,12 +48,9 @@ class ScanContext final : public PlaceRecognizer {
     context.parallel_for(out.rows, [&](std::size_t i) {
       context.check_cancelled();
       const std::span<float> row{out.table.data() + i * out.cols, out.cols};
-      Quat q_level_base = Quat::Identity();
-      if (level_) q_level_base = columns::level_rotation(mission.mission().nodes[i].T_mission_node);
-      columns::write_rotation(q_level_base, row.last(columns::rotation_size));
-      const Payload payload = mission.payload(i);
-      if (!payload.cloud) return;  // an empty descriptor matches nothing
-      const Cloud::Matrix3X points = columns::levelled(*payload.cloud, q_level_base);
+      const Cloud::Matrix3X points =
+          columns::upright_points(mission, i, level_, row.last(columns::rotation_size));
+      if (points.cols() == 0) return;  // an empty descriptor matches nothing
       for (std::size_t v = 0; v < views.size(); ++v)
         columns::describe(points, grid_, views[v], row.subspan(v * bins, bins));
     });

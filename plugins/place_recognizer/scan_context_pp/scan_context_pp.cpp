@@ -38,12 +38,9 @@ class ScanContextPlusPlus final : public PlaceRecognizer {
     context.parallel_for(out.rows, [&](std::size_t i) {
       context.check_cancelled();
       const std::span<float> row{out.table.data() + i * out.cols, out.cols};
-      Quat q_level_base = Quat::Identity();
-      if (level_) q_level_base = columns::level_rotation(mission.mission().nodes[i].T_mission_node);
-      columns::write_rotation(q_level_base, row.last(columns::rotation_size));
-      const Payload payload = mission.payload(i);
-      if (!payload.cloud) return;  // an empty descriptor matches nothing
-      const Cloud::Matrix3X points = columns::levelled(*payload.cloud, q_level_base);
+      const Cloud::Matrix3X points =
+          columns::upright_points(mission, i, level_, row.last(columns::rotation_size));
+      if (points.cols() == 0) return;  // an empty descriptor matches nothing
       if (uses_polar()) polar_.describe(points, height_offset_, row.first(polar_floats()));
       if (uses_cartesian())
         cartesian_.describe(points, height_offset_,
