@@ -105,4 +105,8 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace cambium::testing
 
-int main(int argc, char** argv) { return cambium::testing::run(argc, argv); }
+int main(int argc, char** argv) try {
+  return cambium::testing::run(argc, argv);
+} catch (const std::exception& e) {
+  return std::fprintf(stderr, "%s\n", e.what()), 1;
+}

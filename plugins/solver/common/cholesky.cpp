@@ -49,7 +49,14 @@ bool Cholesky::factorize(const double* values, double shift) {
   return settings_->status == CHOLMOD_OK && factor_->minor == factor_->n;
 }
 
-Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) const {
+Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) const { return solve(CHOLMOD_A, b); }
+
+// Places are in the order of elimination, so there is no permutation to undo.
+Eigen::MatrixXd Cholesky::draw(const Eigen::MatrixXd& white) const {
+  return solve(CHOLMOD_Lt, white);
+}
+
+Eigen::MatrixXd Cholesky::solve(int system, const Eigen::MatrixXd& b) const {
   cholmod_dense B{};
   B.nrow = B.d = std::size_t(b.rows());
   B.ncol = std::size_t(b.cols());
@@ -57,7 +64,7 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& b) const {
   B.x = const_cast<double*>(b.data());
   B.xtype = CHOLMOD_REAL;
   B.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_, &B, settings_);
+  cholmod_dense* x = cholmod_solve(system, factor_, &B, settings_);
   if (!x) return Eigen::MatrixXd::Constant(b.rows(), b.cols(), NAN);
   Eigen::MatrixXd out =
       Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), b.rows(), b.cols());

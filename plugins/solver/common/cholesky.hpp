@@ -22,10 +22,16 @@ class Cholesky {
   /// positive definite.
   bool factorize(const double* values, double shift = 0);
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_side) const;
+  /// L'^-1 `white`, with L L' the matrix (of blocks): columns of independent numbers of variance 1
+  /// become columns whose covariance is the matrix's inverse.
+  Eigen::MatrixXd draw(const Eigen::MatrixXd& white) const;
   /// Of the matrix, estimated from the diagonal of its factor: a lower bound.
   double condition() const;
 
  private:
+  /// `system`: CHOLMOD_A, CHOLMOD_Lt.
+  Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& right_hand_side) const;
+
   struct Free {
     void operator()(double* memory) const;
   };

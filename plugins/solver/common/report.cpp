@@ -58,6 +58,24 @@ void report_equations(const Problem& problem, const Weights& weights, const Loss
   }
 }
 
+void report_odometry(const std::vector<OdometryGroup>& groups, const PoseGraph& graph,
+                     const Context& context, Solution& solution) {
+  const auto report = [&](const OdometryGroup& group, const char* kind, const SigmaScale& scale) {
+    const NodeId node = graph.ids.at(group.first_node);
+    if (scale.known)
+      solution.scores.emplace_back(fmt::format("odometry.{}.{}", node, kind), scale.factor);
+    else
+      context.warn(
+          fmt::format("the {} of the odometry that begins at node {} is as uncertain as the last "
+                      "estimate or the file says: too few loops tell",
+                      kind, node));
+  };
+  for (const OdometryGroup& group : groups) {
+    report(group, "translation", group.translation);
+    report(group, "rotation", group.rotation);
+  }
+}
+
 void report_certificate(const PoseGraph& graph, const Weights& weights, const Loss& loss,
                         const Context& context, Solution& solution) {
   Certificate c;

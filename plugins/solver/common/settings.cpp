@@ -24,6 +24,10 @@ void Settings::params(ParamVisitor& v) {
     "Report the gradient and the condition of the normal equations, for one more factorisation");
   v("certify", certify,
     "Say whether the solution is proven to be the global optimum, or by how much the proof fails");
+  v("odometry", odometry,
+    "`calibrated` takes from the loops how uncertain each mission's odometry is; its file says "
+    "only how translations compare with one another, and rotations",
+    one_of({"as_given", "calibrated"}));
 }
 
 }  // namespace cambium::pose_solver

@@ -15,9 +15,11 @@ struct Settings {
   Limits limits;
   bool diagnostics = false;
   bool certify = false;
+  std::string odometry = "as_given";
 
   void params(ParamVisitor& v);
   bool gnc() const { return loss == "gnc"; }
+  bool calibrates() const { return odometry == "calibrated"; }
 };
 
 }  // namespace cambium::pose_solver

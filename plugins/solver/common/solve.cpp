@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/calibration.hpp"
 #include "common/costs.hpp"
 #include "common/gnc.hpp"
 #include "common/one_thread.hpp"
@@ -53,15 +54,16 @@ Poses find_start(const Settings& settings, Minimizer& minimizer, const Problem& 
   return cheapest(problem, candidates, loss);
 }
 
-}  // namespace
+/// A minimum of the problem's cost, and what it says of itself.
+struct Run {
+  Minimum minimum;
+  Weights weights;
+  double solver_cost = 0;
+};
 
-Solution solve(const Settings& settings, const PoseGraph& given, const Context& context,
-               const MakeMinimizer& make) {
-  const OneThread one_thread;
-  const Problem problem(given, context);
+Run run(const Settings& settings, const Problem& problem, const Loss& loss, const Context& context,
+        const MakeMinimizer& make) {
   const auto& graph = problem.graph;
-  const Loss loss = settings.gnc() ? Loss() : Loss(loss_from(settings.loss), settings.loss_width);
-  context.check_cancelled();
   const auto minimizer = make(problem);
   int iterations = 0;
   const Poses start = find_start(settings, *minimizer, problem,
@@ -69,20 +71,56 @@ Solution solve(const Settings& settings, const PoseGraph& given, const Context& 
                                  context, iterations);
   auto [minimum, weights] = minimise(settings, *minimizer, graph, start, loss, context);
   const double solver_cost = minimum.cost;
+  minimum.iterations += iterations;
   keep_the_better(graph, weights, loss, minimum);
   for (std::size_t i = 0; i < problem.held.size(); ++i)  // to the last bit
-    if (problem.held[i]) minimum.T_map_node[i] = given.T_map_node[i];
+    if (problem.held[i]) minimum.T_map_node[i] = graph.T_map_node[i];
+  return {std::move(minimum), std::move(weights), solver_cost};
+}
+
+/// Weighs odometry anew by the loops and solves again, until the sigmas stand still.
+Run calibrated(Settings settings, Problem& problem, Run found, const Loss& loss,
+               const Context& context, const MakeMinimizer& make,
+               std::vector<OdometryGroup>& groups) {
+  constexpr int rounds = 30;
+  constexpr double still = 1.02;      // a sigma that changes by less is known
+  settings.initialization = "local";  // the minimum that was found is followed
+  groups = odometry_groups(problem.graph);
+  for (int i = 0; i < rounds; ++i) {
+    const double change = calibrate(problem, found.minimum.T_map_node, found.weights, loss, groups);
+    problem.graph.T_map_node = found.minimum.T_map_node;
+    const int iterations = found.minimum.iterations;
+    found = run(settings, problem, loss, context, make);
+    found.minimum.iterations += iterations;
+    if (change < still) break;
+  }
+  return found;
+}
+
+}  // namespace
+
+Solution solve(const Settings& settings, const PoseGraph& given, const Context& context,
+               const MakeMinimizer& make) {
+  const OneThread one_thread;
+  Problem problem(given, context);
+  const Loss loss = settings.gnc() ? Loss() : Loss(loss_from(settings.loss), settings.loss_width);
+  context.check_cancelled();
+  Run found = run(settings, problem, loss, context, make);
+  std::vector<OdometryGroup> groups;
+  if (settings.calibrates())
+    found = calibrated(settings, problem, std::move(found), loss, context, make, groups);
 
   Solution out;
-  out.T_map_node = std::move(minimum.T_map_node);
-  out.iterations = iterations + minimum.iterations;
-  out.converged = minimum.converged;
-  out.message = std::move(minimum.message);
-  out.weight = final_weights(graph, out.T_map_node, weights, loss);
-  if (settings.diagnostics || !graph.marginals.empty())
-    report_equations(problem, weights, loss, settings.diagnostics, out);
-  if (settings.diagnostics) out.scores.emplace_back("solver_cost", solver_cost);
-  if (settings.certify) report_certificate(graph, weights, loss, context, out);
+  out.T_map_node = std::move(found.minimum.T_map_node);
+  out.iterations = found.minimum.iterations;
+  out.converged = found.minimum.converged;
+  out.message = std::move(found.minimum.message);
+  out.weight = final_weights(problem.graph, out.T_map_node, found.weights, loss);
+  report_odometry(groups, problem.graph, context, out);
+  if (settings.diagnostics || !given.marginals.empty())
+    report_equations(problem, found.weights, loss, settings.diagnostics, out);
+  if (settings.diagnostics) out.scores.emplace_back("solver_cost", found.solver_cost);
+  if (settings.certify) report_certificate(problem.graph, found.weights, loss, context, out);
   return out;
 }
 

@@ -3,6 +3,7 @@
 //   const char* cambium::testing::solver_under_test() { return "ceres"; }
 #pragma once
 #include "common/laws/bad_input.hpp"
+#include "common/laws/calibration.hpp"
 #include "common/laws/gauge.hpp"
 #include "common/laws/optimum.hpp"
 #include "common/laws/report.hpp"

@@ -14,11 +14,10 @@ SE3 from_isometry(const g2o::Isometry3& T) {
   return {Quat(Eigen::Quaterniond(T.linear())).normalized(), T.translation()};
 }
 
-Eigen::Matrix<double, 6, 6> for_vec_q(const Mat6& information) {
-  Eigen::Matrix<double, 6, 6> out = information;
-  out.bottomRows<3>() *= 2;
-  out.rightCols<3>() *= 2;
-  return out;
+Mat6 for_edge_se3(const Mat6& information, const SE3& T_tail_head) {
+  Mat6 ours_of_g2o = 2 * Mat6::Identity();
+  ours_of_g2o.topLeftCorner<3, 3>() = T_tail_head.rotation();
+  return ours_of_g2o.transpose() * information * ours_of_g2o;
 }
 
 EdgeAttitude::EdgeAttitude(const AttitudeFactor& f)

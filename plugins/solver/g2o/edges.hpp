@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The factors of cambium/pose_graph.hpp for g2o. g2o's EdgeSE3 measures rotations with vec(q) where
-// the one cost has 2 vec(q), so the rotation's rows and columns of the information are doubled, and
-// F is the same. A vertex moves by (dt; vec(dq)), both in its own frame: half an angle.
+// the one cost has 2 vec(q), and translations in the measured head's frame, not in the tail's:
+// r = (R_tail_head r_t; 2 r_q). With the information of those, F is the same. A vertex moves by
+// (dt; vec(dq)), both in its own frame: half an angle.
 #pragma once
 #include <g2o/core/base_unary_edge.h>
 #include <g2o/core/robust_kernel.h>
@@ -15,7 +16,8 @@ namespace cambium::g2o_solver {
 
 g2o::Isometry3 to_isometry(const SE3& T);
 SE3 from_isometry(const g2o::Isometry3& T);
-Eigen::Matrix<double, 6, 6> for_vec_q(const Mat6& information);
+/// The information of an EdgeSE3's error, from that of the one cost's residual.
+Mat6 for_edge_se3(const Mat6& information, const SE3& T_tail_head);
 
 class Kernel final : public g2o::RobustKernel {
  public:

@@ -18,7 +18,7 @@ class Edges {
     edge->setVertex(0, optimizer_.vertex(int(tail)));
     edge->setVertex(1, optimizer_.vertex(int(head)));
     edge->setMeasurement(to_isometry(T_tail_head));
-    edge->setInformation(for_vec_q(information));
+    edge->setInformation(for_edge_se3(information, T_tail_head));
     add(edge, robust);
   }
   void unary(UnaryEdge* edge, std::size_t node, bool robust) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <g2o/core/sparse_optimizer.h>
 
+#include "common/loss.hpp"
 #include "common/problem.hpp"
 #include "common/weights.hpp"
 

@@ -1,9 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <gtsam/linear/VectorValues.h>
+#include <gtsam/linear/linearExceptions.h>
 #include <gtsam/nonlinear/LevenbergMarquardtOptimizer.h>
+
+#include <algorithm>
 
 #include "optimizers.hpp"
 
 namespace cambium::gtsam_solver {
+namespace {
+
+/// Not even the undamped step moves a pose by more than rounding does (m, rad).
+bool rests(const FactorGraph& graph, const gtsam::Values& at) try {
+  const gtsam::VectorValues step = graph.factors.linearize(at)->optimize();
+  return std::all_of(step.begin(), step.end(),
+                     [](const auto& of_pose) { return of_pose.second.norm() < 1e-9; });
+} catch (const gtsam::IndeterminantLinearSystemException&) {
+  return false;
+}
+
+}  // namespace
 
 pose_solver::Minimum batch(const FactorGraph& graph, const std::vector<SE3>& start,
                            const pose_solver::Limits& limits, const Context& context) {
@@ -22,7 +38,7 @@ pose_solver::Minimum batch(const FactorGraph& graph, const std::vector<SE3>& sta
     ++out.iterations;
     out.converged = before - optimizer.error() <= limits.tolerance * optimizer.error();
   }
-  if (optimizer.lambda() >= params.lambdaUpperBound) {
+  if (optimizer.lambda() >= params.lambdaUpperBound && !rests(graph, optimizer.values())) {
     out.converged = false;
     out.message = "no step lowers the cost";
   } else if (out.converged) {

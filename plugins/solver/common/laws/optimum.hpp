@@ -44,13 +44,13 @@ TEST_P(ReferenceOptimum, IsReachedToAMillionth) {
   EXPECT_NEAR(cost(graph, s.T_map_node) / F, 1, 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(PoseGraphs, ReferenceOptimum,
-                         ::testing::Combine(
-                             ::testing::Values(std::pair{"tinyGrid3D", 18.51936642},
-                                               std::pair{"smallGrid3D", 1025.398056},
-                                               std::pair{"parking-garage", 1.268384384},
-                                               std::pair{"sphere2500", 1351.215697},
-                                               std::pair{"torus3D", 24227.04556}),
-                             ::testing::Values("chordal", "given")));
+                         ::testing::Combine(::testing::Values(std::pair{"tinyGrid3D", 18.51936642},
+                                                              std::pair{"smallGrid3D", 1025.398056},
+                                                              std::pair{"parking-garage",
+                                                                        1.268384384},
+                                                              std::pair{"sphere2500", 1351.215697},
+                                                              std::pair{"torus3D", 24227.04556}),
+                                            ::testing::Values("chordal", "given")));
 
 TEST(SolverLaws, ChordalStartNeedsNoGivenPoses) {
   const auto data = real_data("pose_graphs");
