@@ -28,14 +28,19 @@ struct Result {
   std::size_t first_right = 0, five_right = 0;
   std::vector<double> right_scores, wrong_scores;  ///< of the first candidates
   std::vector<double> translation, rotation;       ///< errors of the right ones' guesses [m], [deg]
+  std::size_t good_guesses = 0;  ///< of all first candidates, also those too far along the path
 };
 
-void judge_guess(const Scene& scene, const Candidate& c, Result& result) {
+void judge_guess(const Scene& scene, const Candidate& c, bool right, Result& result) {
   if (!c.T_reference_query) return;
   const SE3 truth = scene.reference[c.reference].inverse() * scene.query[c.query];
   const SE3 error = truth.inverse() * *c.T_reference_query;
-  result.translation.push_back((c.T_reference_query->t - truth.t).head<2>().norm());
-  result.rotation.push_back(rotation_angle(error) * 57.29578);
+  const double translation = (c.T_reference_query->t - truth.t).head<2>().norm();
+  const double rotation = rotation_angle(error) * 57.29578;
+  result.good_guesses += translation < 1 && rotation < 5;
+  if (!right) return;
+  result.translation.push_back(translation);
+  result.rotation.push_back(rotation);
 }
 
 Result judge(const Scene& scene, const std::vector<Candidate>& candidates) {
@@ -52,7 +57,7 @@ Result judge(const Scene& scene, const std::vector<Candidate>& candidates) {
       if (rank++ > 0) continue;
       (right ? result.right_scores : result.wrong_scores).push_back(c.score);
       result.first_right += right;
-      if (right) judge_guess(scene, c, result);
+      judge_guess(scene, c, right, result);
     }
     result.five_right += within_five;
   }
@@ -86,10 +91,11 @@ void print_row(const Scene& scene, const std::string& method, const std::string&
   const double matched = cpu_milliseconds();
   const Result r = judge(scene, candidates);
   const auto percent = [&](std::size_t n) { return 100.0 * double(n) / double(r.queries); };
-  std::printf("| %s | `%s` | %zu | %.0f | %.0f | %.0f | %.1f m, %.1f deg | %.2f | %.2f |\n",
+  std::printf("| %s | `%s` | %zu | %.0f | %.0f | %.0f | %.1f m, %.1f deg | %.0f | %.2f | %.2f |\n",
               scene.name.c_str(), method.c_str(), r.queries, percent(r.first_right),
               percent(r.five_right), percent(without_error(r)), middle(r.translation),
-              middle(r.rotation), (described - start) / double(query.rows + reference.rows),
+              middle(r.rotation), percent(r.good_guesses),
+              (described - start) / double(query.rows + reference.rows),
               1e3 * (matched - described) / double(query.rows * reference.rows));
   std::fflush(stdout);
 }
@@ -129,7 +135,8 @@ int main(int argc, char** argv) try {
   const auto context = cambium::testing::make_context();
   std::printf(
       "| scene | method | queries | R@1 [%%] | R@5 | R@1 at 100 %% precision | guess (median) | "
-      "describe [ms/scan] | match [us/pair] |\n|---|---|---|---|---|---|---|---|---|\n");
+      "1 m, 5 deg [%%] | describe [ms/scan] | match [us/pair] "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (char** scene = argv + 1; scene != bar; ++scene)
     rows(*scene, int(argv + argc - bar - 1), bar + 1, *context);
 } catch (const std::exception& e) {

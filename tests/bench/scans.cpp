@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scan-to-scan registration on real and simulated scans, beside its peers:
-//   bench_scans [--global YAML] [--consecutive] [--strangers STRIDE] [--honesty PAIRS YAML]
+//   bench_scans [--global YAML] [--consecutive] [--strangers STRIDE] [--honesty PAIRS YAML SEED]
 //               [--peers PYTHON]
 // Without options: all but the peers. See docs/benchmarks.md.
 #include "bench/scans.hpp"
@@ -40,7 +40,8 @@ int run(int argc, char** argv) {
       bench::stranger_table("{}", std::stoul(next(i, "1")));
     else if (option == "--honesty") {
       const int pairs = std::stoi(next(i, "500"));
-      bench::honesty_table(next(i, "{}"), pairs);
+      const std::string yaml = next(i, "{}");
+      bench::honesty_table(yaml, pairs, std::stoul(next(i, "5")));
     } else if (option == "--peers") {
       if (run_peers(next(i, "python3")) != 0) return 1;
     } else {

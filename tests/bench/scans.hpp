@@ -22,6 +22,6 @@ void consecutive_table();
 /// Pairs of places that never met: `stride` takes every so-many-th scan of the long mission.
 void stranger_table(const std::string& yaml, std::size_t stride);
 /// Whether the information matrix is honest: normalised error squared over simulated pairs.
-void honesty_table(const std::string& yaml, int pairs);
+void honesty_table(const std::string& yaml, int pairs, std::uint64_t seed = 5);
 
 }  // namespace cambium::bench

@@ -121,6 +121,35 @@ def without_a_guess(a, b):
               f"| {np.median(r[:, 1]):.0f} | {np.median(r[:, 2]):.0f} |", flush=True)
 
 
+def near(target, T, source, distance=0.2):
+    """The share of the source's points that have one of the target's within `distance` [m]."""
+    points = source[0].points()[:, :3] @ T[:3, :3].T + T[:3, 3]
+    return np.mean(np.sqrt(target[1].batch_nearest_neighbor_search(points)[1]) < distance)
+
+
+def from_the_truth(a, b):
+    """What the truth allows for: started at it, how many registrations stay with it, and how well the
+    clouds lie on each other at the truth and where the registration ends."""
+    limits, rows = [5, 10, 15, 20, 25, 30], []
+    targets, sources = ([prepare(c)[0] for c in clouds] for clouds in (a[0], b[0]))
+    for target, T_a in zip(targets, a[1]):
+        for source, T_b in zip(sources, b[1]):
+            truth = np.linalg.inv(T_a) @ T_b
+            baseline = np.linalg.norm(truth[:3, 3])
+            if baseline < 30:
+                T = gicp(target, source, truth)[0]
+                t, r = error(np.linalg.inv(truth) @ T)
+                rows.append([np.searchsorted(limits, baseline, side="right"), t < 0.5 and r < 5, t, r,
+                             near(target, truth, source), near(target, T, source)])
+    rows = np.array(rows, dtype=float)
+    print("| pairs | n | small_gicp from the truth: correct % | moved by | points within 0.2 m: at the truth % "
+          "| at the result % |\n|---|---|---|---|---|---|")
+    for k, limit in enumerate(limits):
+        r = rows[rows[:, 0] == k]
+        print(f"| {limit - 5}-{limit} m | {len(r)} | {100 * r[:, 1].mean():.1f} | {np.median(r[:, 2]):.2f} m "
+              f"{np.median(r[:, 3]):.1f} deg | {100 * r[:, 4].mean():.0f} | {100 * r[:, 5].mean():.0f} |", flush=True)
+
+
 def main():
     folder, cars = Path(sys.argv[1]), Path(sys.argv[2])
     a, b = college(folder / "mission_a"), college(folder / "mission_b")
@@ -128,6 +157,7 @@ def main():
     for name in ("KAIST03", "Seosan01"):
         consecutive(name, *mulran(cars / name), False)
     without_a_guess(a, b)
+    from_the_truth(a, b)
 
 
 if __name__ == "__main__":

@@ -96,9 +96,9 @@ void stranger_table(const std::string& yaml, std::size_t stride) {
   std::printf("\n");
 }
 
-void honesty_table(const std::string& yaml, int pairs) {
+void honesty_table(const std::string& yaml, int pairs, std::uint64_t seed) {
   const auto method = component<Registration>("gicp", yaml);
-  const Stand stand(5);
+  const Stand stand(seed);
   double sum = 0;
   Vec6 axes = Vec6::Zero();
   std::vector<double> translation;

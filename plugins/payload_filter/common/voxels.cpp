@@ -48,6 +48,7 @@ std::vector<VoxelMeans::Sum> VoxelMeans::sums_of(const Cloud& cloud,
       one.normal = one.first_normal.cast<double>();
     }
     if (intensity_) one.intensity = cloud.intensity[i];
+    if (label_) one.label = cloud.label[i];
     if (!out.empty() && out.back().voxel == voxel)
       merge(out.back(), one);
     else
@@ -61,12 +62,14 @@ void VoxelMeans::merge(Sum& into, const Sum& other) {
   into.position += other.position;
   into.normal += other.normal;
   into.intensity += other.intensity;
+  if (into.label != other.label) into.label = 0;
 }
 
 std::size_t VoxelMeans::add(const Cloud& cloud) {
   if (cloud.empty()) return 0;
   normals_ = normals_ && !cloud.normals.empty();
   intensity_ = intensity_ && !cloud.intensity.empty();
+  label_ = label_ && !cloud.label.empty();
   const auto points = sorted_by_voxel(cloud, size_);
   const std::vector<Sum> added = sums_of(cloud, points);
   std::vector<Sum> all;
@@ -96,6 +99,7 @@ Cloud VoxelMeans::means(int min_points) const {
     const Vec3 normal = none ? Vec3(s.first_normal.cast<double>()) : s.normal;
     if (normals_) append(out.normals, normal.normalized());
     if (intensity_) out.intensity.push_back(float(s.intensity / s.count));
+    if (label_) out.label.push_back(s.label);
   }
   return out;
 }

@@ -34,8 +34,8 @@ class VoxelMeans {
   /// Returns how many points have no voxel.
   std::size_t add(const Cloud& cloud);
   /// Mean position, direction of the mean normal and mean intensity of every voxel with at least
-  /// `min_points`, in the order of x, y, z. Normals and intensities only if every cloud with a
-  /// point had them.
+  /// `min_points`, in the order of x, y, z. Normals, intensities and labels only if every cloud with
+  /// a point had them. Points of several labels make one of none.
   Cloud means(int min_points = 1) const;
 
  private:
@@ -45,12 +45,13 @@ class VoxelMeans {
     Vec3 position = Vec3::Zero(), normal = Vec3::Zero();
     Eigen::Vector3f first_normal = Eigen::Vector3f::Zero();
     double intensity = 0;
+    std::uint8_t label = 0;
   };
   std::vector<Sum> sums_of(const Cloud& cloud, const std::vector<PointInVoxel>& points) const;
   static void merge(Sum& into, const Sum& other);
 
   double size_;
-  bool normals_ = true, intensity_ = true;
+  bool normals_ = true, intensity_ = true, label_ = true;
   std::vector<Sum> sums_;  ///< by voxel
 };
 

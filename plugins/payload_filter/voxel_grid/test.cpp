@@ -35,6 +35,13 @@ TEST(VoxelGrid, MeansOfPositionNormalAndIntensity) {
   EXPECT_EQ(out.intensity, (std::vector<float>{7, 20}));
 }
 
+TEST(VoxelGrid, AVoxelHasALabelWhenItsPointsAgree) {
+  Cloud cloud;
+  cloud.xyz = {0.1f, 0, 0, 0.2f, 0, 0, 1.1f, 0, 0, 1.2f, 0, 0, 1.3f, 0, 0};
+  cloud.label = {64, 64, 2, 66, 2};
+  EXPECT_EQ(filtered("{size: 1.0}", cloud).label, (std::vector<std::uint8_t>{64, 0}));
+}
+
 TEST(VoxelGrid, OppositeNormalsStillGiveAUnitNormal) {
   Cloud cloud;
   cloud.xyz = {0.1f, 0.1f, 0.1f, 0.2f, 0.2f, 0.2f};

@@ -11,13 +11,23 @@ namespace {
 
 #define COLUMNS_AVX2 [[gnu::target("avx2,fma,popcnt")]]
 
+struct Registers {
+  static constexpr std::size_t width = 16;
+  COLUMNS_AVX2 static unsigned not_negative(const float* x) {
+    unsigned below = 0;
+    for (unsigned lane = 0; lane < lanes; lane += 8)
+      below |= unsigned(_mm256_movemask_ps(_mm256_loadu_ps(x + lane))) << lane;
+    return ~below;
+  }
+};
+
 // Products of bytes, summed by four. The pairs between fit into 16 bits: see largest_code.
 COLUMNS_AVX2 inline __m256i add_products(__m256i sum, __m256i references, std::int32_t codes) {
   const __m256i pairs = _mm256_maddubs_epi16(references, _mm256_set1_epi32(codes));
   return _mm256_add_epi32(sum, _mm256_madd_epi16(pairs, _mm256_set1_epi16(1)));
 }
 
-/// Half of the lanes of one frequency; returns |cross|.
+/// Eight lanes of one frequency; returns |cross|.
 COLUMNS_AVX2 [[gnu::always_inline]] inline __m256 multiply(const std::byte* codes,
                                                            const std::byte* scales,
                                                            const CoarseQuery& query, std::size_t f,
@@ -27,7 +37,7 @@ COLUMNS_AVX2 [[gnu::always_inline]] inline __m256 multiply(const std::byte* code
   __m256i re = _mm256_set1_epi32(query.offsets[2 * f]);
   __m256i im = _mm256_set1_epi32(query.offsets[2 * f + 1]);
 #pragma GCC unroll 10
-  for (std::size_t g = 0; g < groups; ++g, codes += 64, of_query += 4) {
+  for (std::size_t g = 0; g < groups; ++g, codes += 4 * lanes, of_query += 4) {
     if (ahead != 0) _mm_prefetch(codes + ahead, _MM_HINT_T1);
     std::int32_t real, imaginary;
     std::memcpy(&real, of_query, 4);
@@ -56,17 +66,18 @@ COLUMNS_AVX2 [[gnu::always_inline]] inline unsigned screen_groups(Shape shape, s
                                                                   const Screening& screening,
                                                                   float* cross) {
   const TileLayout layout(shape);
-  __m256 sum[2] = {_mm256_setzero_ps(), _mm256_setzero_ps()};
+  __m256 sum[lanes / 8] = {};
   for (std::size_t f = 0; f < shape.frequencies(); ++f)
-    for (std::size_t half = 0; half < 2; ++half)
-      sum[half] = _mm256_add_ps(
-          sum[half], multiply(tile + f * groups * 64 + half * 32,
-                              tile + layout.scales + f * lanes * 2 + half * lanes, query, f, groups,
-                              cross + 2 * f * lanes + half * lanes / 2,
-                              half == 0 && screening.fetch_ahead ? layout.bytes : 0));
-  Lanes sums;
-  std::memcpy(&sums, sum, sizeof sums);
-  return possible(shape, tile, query, screening, sums * (1.0f + 0x1p-10f));  // rsqrt: 1.5 * 2^-12
+    for (std::size_t part = 0; part < lanes / 8; ++part)
+      sum[part] = _mm256_add_ps(
+          sum[part], multiply(tile + f * groups * 4 * lanes + part * 32,
+                              tile + layout.scales + f * lanes * 2 + part * 16, query, f, groups,
+                              cross + 2 * f * lanes + part * 8,
+                              part % 2 == 0 && screening.fetch_ahead ? layout.bytes : 0));
+  float sums[lanes];
+  for (std::size_t part = 0; part < lanes / 8; ++part)  // rsqrt: 1.5 * 2^-12
+    _mm256_storeu_ps(sums + part * 8, _mm256_mul_ps(sum[part], _mm256_set1_ps(1.0f + 0x1p-10f)));
+  return possible<Registers>(shape, tile, query, screening, sums);
 }
 
 COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
@@ -79,7 +90,7 @@ COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQue
 COLUMNS_AVX2 unsigned weigh(const InverseTransform& inverse, const std::byte* tile,
                             const CoarseQuery& query, const Screening& screening,
                             const float* cross, unsigned possible, float* sums) {
-  return weigh_lanes(inverse, tile, query, screening, cross, possible, sums);
+  return weigh_lanes<Registers>(inverse, tile, query, screening, cross, possible, sums);
 }
 
 COLUMNS_AVX2 float dot(const float* a, const float* b, std::size_t count) {

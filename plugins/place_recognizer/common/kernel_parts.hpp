@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What all kernels share, inlined into each and so compiled for its instruction set.
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -8,36 +9,40 @@
 
 namespace columns {
 
-/// One number a lane; the compiler splits it where registers are shorter.
-typedef float Lanes __attribute__((vector_size(lanes * sizeof(float))));
-typedef std::int32_t LaneMask __attribute__((vector_size(lanes * sizeof(std::int32_t))));
+/// As many lanes as a kernel works on at once; the compiler splits it where registers are shorter.
+template <std::size_t width>
+using Floats [[gnu::vector_size(width * sizeof(float))]] = float;
 
 /// Of descriptors with 20 rings.
 constexpr std::size_t usual_groups = 10;
 
-[[gnu::always_inline]] inline void load(Lanes& to, const void* from) {
-  std::memcpy(&to, from, sizeof(Lanes));
+template <class T>
+[[gnu::always_inline]] inline void load(T& to, const void* from) {
+  std::memcpy(&to, from, sizeof(T));
 }
 
 /// Lanes whose largest sum, at most `sums`, allows for a distance that is tolerated:
 /// 1 - S / n <= d means S >= (1 - d) n, and both have filled n >= a + b - sectors columns.
+/// Registers::not_negative(x) has a bit for each of x[lanes] that is not below 0.
+template <class Registers>
 [[gnu::always_inline]] inline unsigned possible(Shape shape, const std::byte* tile,
                                                 const CoarseQuery& query,
-                                                const Screening& screening, const Lanes& sums) {
+                                                const Screening& screening, const float* sums) {
   const TileLayout layout(shape);
-  Lanes error, norm, filled;
+  float error[lanes], norm[lanes], filled[lanes], margin[lanes];
   load(error, tile + layout.error);
   load(norm, tile + layout.norm);
   load(filled, tile + layout.filled);
   const float more = float(query.filled - shape.sectors), least = screening.least_columns;
   const float wanted = 1.0f - screening.tolerated - 1e-5f;
-  Lanes common = filled + more;
-  common = common > least ? common : common * 0.0f + least;
-  const Lanes reachable = sums + query.per_error * error + query.per_norm * norm;
-  const LaneMask good = (reachable >= wanted * common) & (filled >= least);
-  unsigned bits = 0;
-  for (std::size_t lane = 0; lane < lanes; ++lane) bits |= unsigned(good[lane] & 1) << lane;
-  return float(query.filled) >= least ? bits : 0u;
+  if (float(query.filled) < least) return 0;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const float common = std::max(filled[lane] + more, least);
+    const float reachable =
+        sums[lane] + query.per_error * error[lane] + query.per_norm * norm[lane];
+    margin[lane] = filled[lane] >= least ? reachable - wanted * common : -1.0f;
+  }
+  return Registers::not_negative(margin);
 }
 
 /// The lane has a shift whose sum allows for a distance that is tolerated.
@@ -63,18 +68,20 @@ constexpr std::size_t usual_groups = 10;
 }
 
 /// Sums over every `stride`-th frequency from `parity` on, for four shifts from `first` on.
+template <class Part>
 struct FourShifts {
-  Lanes cosines[4] = {}, sines[4] = {};
+  Part cosines[4] = {}, sines[4] = {};
 };
+template <class Part>
 [[gnu::always_inline]] inline void add_frequencies(const InverseTransform& inverse,
                                                    const float* cross, std::size_t first,
                                                    std::size_t parity, std::size_t stride,
-                                                   FourShifts& to) {
+                                                   FourShifts<Part>& to) {
   const std::size_t F = inverse.shape.frequencies();
   const float* cosine = inverse.cosine.data() + first * F;
   const float* sine = inverse.sine.data() + first * F;
   for (std::size_t f = parity; f < F; f += stride) {
-    Lanes real, imaginary;
+    Part real, imaginary;
     load(real, cross + 2 * f * lanes);
     load(imaginary, cross + (2 * f + 1) * lanes);
     for (std::size_t j = 0; j < 4; ++j) {
@@ -85,46 +92,53 @@ struct FourShifts {
 }
 
 /// S(k) and S(-k), from the sum of Re cos and that of Im sin.
-[[gnu::always_inline]] inline void write_pair(const Lanes& cosines, const Lanes& sines,
-                                              std::size_t k, std::size_t sectors, float* sums,
-                                              Lanes& largest) {
-  const Lanes ahead = cosines - sines, behind = cosines + sines;
-  const Lanes larger = ahead > behind ? ahead : behind;
+template <class Part>
+[[gnu::always_inline]] inline void write_pair(const Part& cosines, const Part& sines, std::size_t k,
+                                              std::size_t sectors, float* sums, Part& largest) {
+  const Part ahead = cosines - sines, behind = cosines + sines;
+  const Part larger = ahead > behind ? ahead : behind;
   largest = larger > largest ? larger : largest;
-  std::memcpy(sums + k * lanes, &ahead, sizeof(Lanes));
-  std::memcpy(sums + (sectors - k) % sectors * lanes, &behind, sizeof(Lanes));
+  std::memcpy(sums + k * lanes, &ahead, sizeof(Part));
+  std::memcpy(sums + (sectors - k) % sectors * lanes, &behind, sizeof(Part));
 }
 
 /// All S(k), and the largest of each lane. k and -k share their products; so do k and
 /// sectors / 2 - k where that is whole, up to the sign of every second frequency.
+template <class Part>
 [[gnu::always_inline]] inline void all_shifts(const InverseTransform& inverse, const float* cross,
-                                              float* sums, Lanes& largest) {
+                                              float* sums, Part& largest) {
   const auto sectors = std::size_t(inverse.shape.sectors);
   const bool folds = sectors % 2 == 0;
   const std::size_t last = folds ? sectors / 4 : sectors / 2;
   for (std::size_t first = 0; first <= last; first += 4) {
-    FourShifts even, odd;
+    FourShifts<Part> even, odd;
     add_frequencies(inverse, cross, first, 0, folds ? 2 : 1, even);
     if (folds) add_frequencies(inverse, cross, first, 1, 2, odd);
     for (std::size_t j = 0; j < 4 && first + j <= last; ++j) {
       const std::size_t k = first + j;
-      write_pair(even.cosines[j] + odd.cosines[j], even.sines[j] + odd.sines[j], k, sectors, sums,
-                 largest);
+      write_pair<Part>(even.cosines[j] + odd.cosines[j], even.sines[j] + odd.sines[j], k, sectors,
+                       sums, largest);
       if (folds)
-        write_pair(even.cosines[j] - odd.cosines[j], odd.sines[j] - even.sines[j], sectors / 2 - k,
-                   sectors, sums, largest);
+        write_pair<Part>(even.cosines[j] - odd.cosines[j], odd.sines[j] - even.sines[j],
+                         sectors / 2 - k, sectors, sums, largest);
     }
   }
 }
 
+template <class Registers>
 [[gnu::always_inline]] inline unsigned weigh_lanes(const InverseTransform& inverse,
                                                    const std::byte* tile, const CoarseQuery& query,
                                                    const Screening& screening, const float* cross,
                                                    unsigned lanes_in_question, float* sums) {
+  constexpr std::size_t width = Registers::width;
   const Shape shape = inverse.shape;
-  Lanes largest = {};
-  all_shifts(inverse, cross, sums, largest);
-  unsigned good = lanes_in_question & possible(shape, tile, query, screening, largest);
+  float largest[lanes];
+  for (std::size_t lane = 0; lane < lanes; lane += width) {
+    Floats<width> of_part = {};
+    all_shifts(inverse, cross + lane, sums + lane, of_part);
+    std::memcpy(largest + lane, &of_part, sizeof of_part);
+  }
+  unsigned good = lanes_in_question & possible<Registers>(shape, tile, query, screening, largest);
   if (query.filled == shape.sectors) return good;  // the references' own columns count, all of them
   for (unsigned left = good; left != 0; left &= left - 1) {
     const auto lane = std::size_t(std::countr_zero(left));
@@ -134,16 +148,17 @@ struct FourShifts {
 }
 
 [[gnu::always_inline]] inline float dot_product(const float* a, const float* b, std::size_t count) {
-  Lanes sums = {};
+  constexpr std::size_t width = 16;
+  Floats<width> sums = {};
   std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    Lanes x, y;
+  for (; i + width <= count; i += width) {
+    Floats<width> x, y;
     load(x, a + i);
     load(y, b + i);
     sums += x * y;
   }
   float sum = 0;
-  for (std::size_t lane = 0; lane < lanes; ++lane) sum += sums[lane];
+  for (std::size_t lane = 0; lane < width; ++lane) sum += sums[lane];
   for (; i < count; ++i) sum += a[i] * b[i];
   return sum;
 }

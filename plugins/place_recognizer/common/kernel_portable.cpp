@@ -8,6 +8,15 @@
 namespace columns {
 namespace {
 
+struct Registers {
+  static constexpr std::size_t width = 16;
+  static unsigned not_negative(const float* x) {
+    unsigned bits = 0;
+    for (std::size_t lane = 0; lane < lanes; ++lane) bits |= unsigned(!(x[lane] < 0)) << lane;
+    return bits;
+  }
+};
+
 using Sums = std::int32_t[lanes];
 
 void multiply(const std::uint8_t* codes, const std::int8_t* real, const std::int8_t* imaginary,
@@ -24,7 +33,7 @@ unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
                 const Screening& screening, float* cross) {
   const TileLayout layout(shape);
   const std::size_t width = 4 * shape.groups();
-  Lanes sums = {};
+  float sums[lanes] = {};
   for (std::size_t f = 0; f < shape.frequencies(); ++f) {
     Sums re, im;
     for (std::size_t lane = 0; lane < lanes; ++lane)
@@ -41,12 +50,12 @@ unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
       sums[lane] += std::sqrt(x * x + y * y);
     }
   }
-  return possible(shape, tile, query, screening, sums);
+  return possible<Registers>(shape, tile, query, screening, sums);
 }
 
 unsigned weigh(const InverseTransform& inverse, const std::byte* tile, const CoarseQuery& query,
                const Screening& screening, const float* cross, unsigned possible, float* sums) {
-  return weigh_lanes(inverse, tile, query, screening, cross, possible, sums);
+  return weigh_lanes<Registers>(inverse, tile, query, screening, cross, possible, sums);
 }
 
 float dot(const float* a, const float* b, std::size_t count) { return dot_product(a, b, count); }

@@ -17,7 +17,7 @@ constexpr std::size_t tiles_between_checks = 256;
 }  // namespace
 
 std::size_t tile_bytes(std::size_t nodes, Shape shape) {
-  return tile_count(nodes) * TileLayout(shape).bytes;
+  return tiles_begin + tile_count(nodes) * TileLayout(shape).bytes + tiles_end;
 }
 
 void encode_tiles(cambium::Fingerprints& fingerprints, const Table& table,
@@ -29,7 +29,7 @@ void encode_tiles(cambium::Fingerprints& fingerprints, const Table& table,
     for (std::size_t n = i * lanes; n < std::min((i + 1) * lanes, table.size()); ++n)
       descriptors.push_back(table.descriptor(n, 0));
     encode_tile(descriptors, transform,
-                {fingerprints.extra.data() + table.first_tile + i * bytes, bytes});
+                {fingerprints.extra.data() + (table.tile(i) - fingerprints.extra.data()), bytes});
   });
 }
 

@@ -10,7 +10,7 @@
 namespace columns {
 
 /// Where descriptors lie in fingerprints: row i holds `views` of them, from column `first` on. The
-/// first view also lies in tiles, from byte `first_tile` of `extra` on.
+/// first view also lies in tiles, in the tile_bytes() of `extra` from `first_tile` on.
 struct Table {
   const cambium::Fingerprints& fingerprints;
   Shape shape;
@@ -21,7 +21,7 @@ struct Table {
     return fingerprints.row(node).subspan(first + view * shape.bins(), shape.bins());
   }
   const std::byte* tile(std::size_t i) const {
-    return fingerprints.extra.data() + first_tile + i * TileLayout(shape).bytes;
+    return fingerprints.extra.data() + first_tile + tiles_begin + i * TileLayout(shape).bytes;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "common/distance.hpp"
+#include "common/hamming.hpp"
 #include "common/search.hpp"
 #include "support/support.hpp"
 
@@ -184,19 +185,18 @@ TEST(Columns, KernelsKeepTheirBounds) {
     const TileLayout layout(shape);
     const auto queries = descriptors(shape, 3, 0.9, 0.9, 1);
     const auto references = descriptors(shape, lanes, 0.9, 0.9, 2);
-    const auto tile = fingerprints(references, shape);
+    const auto table = fingerprints(references, shape);
+    const std::byte* tile = Table{table, shape}.tile(0);
     std::vector<float> cross(shape.frequencies() * 2 * lanes),
         sums(std::size_t(shape.sectors) * lanes);
     for (const Kernel& kernel : kernels())
       for (const Descriptor& query : queries) {
         const CoarseQuery coarse(query, transform);
-        kernel.screen(shape, tile.extra.data(), coarse, {1.0f, 1.0f}, cross.data());
-        kernel.weigh(inverse, tile.extra.data(), coarse, {1.0f, 1.0f}, cross.data(), ~0u,
-                     sums.data());
+        kernel.screen(shape, tile, coarse, {1.0f, 1.0f}, cross.data());
+        kernel.weigh(inverse, tile, coarse, {1.0f, 1.0f}, cross.data(), ~0u, sums.data());
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-          const double bound =
-              coarse.per_error * read<float>(tile.extra.data() + layout.error, lane) +
-              coarse.per_norm * read<float>(tile.extra.data() + layout.norm, lane);
+          const double bound = coarse.per_error * read<float>(tile + layout.error, lane) +
+                               coarse.per_norm * read<float>(tile + layout.norm, lane);
           EXPECT_LT(bound, 0.05 * shape.sectors);
           for (std::size_t k = 0; k < std::size_t(shape.sectors); ++k)
             EXPECT_NEAR(sums[k * lanes + lane], correlation(query, references[lane], shape, k),
@@ -229,6 +229,36 @@ TEST(Columns, ScreeningLosesNothing) {
           EXPECT_TRUE(possible >> found.reference % lanes & 1) << kernel.name;
         }
   }
+}
+
+TEST(Hamming, TheNearestOfBothSidesAndTheFirstOfEquals) {
+  std::mt19937_64 random(5);
+  std::vector<Bits> a(40), b(50);
+  for (auto* all : {&a, &b})
+    for (Bits& bits : *all)
+      for (auto& word : bits) word = random() & random() & random();
+  b[7] = b[30] = a[3];  // of two that are as near the first counts
+  a[20] = {};
+  const auto [of_a, of_b] = nearest_bits(a, b);
+  const auto differ = [](const Bits& x, const Bits& y) {
+    int out = 0;
+    for (std::size_t w = 0; w < 4; ++w)
+      for (int bit = 0; bit < 64; ++bit) out += int((x[w] >> bit & 1) != (y[w] >> bit & 1));
+    return out;
+  };
+  const auto check = [&](const auto& from, const auto& to, const auto& found) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      std::size_t best = 0;
+      for (std::size_t k = 1; k < to.size(); ++k)
+        if (differ(from[i], to[k]) < differ(from[i], to[best])) best = k;
+      EXPECT_EQ(found[i].index, best);
+      EXPECT_EQ(found[i].distance, differ(from[i], to[best]));
+    }
+  };
+  check(a, b, of_a);
+  check(b, a, of_b);
+  EXPECT_EQ(of_a[3].index, 7u);
+  EXPECT_EQ(nearest_bits(a, {}).first[0].distance, 257);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ Quality evaluate(const Surface& target, const Patches& source, const SE3& T_targ
 struct NoiseModel {
   double translation_floor = 0.03;  ///< [m]
   double rotation_floor = 0.007;    ///< [rad]
-  double correlation_length = 2.6;  ///< residuals nearer to each other are one observation [m]
+  double correlation_length = 1.85;  ///< residuals nearer to each other are one observation [m]
   double spacing = 0.3;             ///< of the points that were evaluated [m]
 };
 
