@@ -99,14 +99,17 @@ void judge(const Forest& forest, std::size_t node, const std::vector<Tree>& tree
   }
   for (std::size_t i = 0; i < reported.size(); ++i) {
     if (across(reported[i], T.t) > judging.range) continue;
+    const simulate::Stem* s = stem_of[i] == nobody ? nullptr : &forest.stems[stem_of[i]];
+    const double error = s ? trees[i].dbh - s->dbh : 0;
+    const bool sapling = s && s->dbh < judging.min_dbh;
+    if (sapling && error < judging.sapling_error) continue;
     ++tally.reported;
-    if (stem_of[i] == nobody) continue;
+    if (!s || sapling) continue;
     ++tally.right;
-    const simulate::Stem& s = forest.stems[stem_of[i]];
-    if (std::isfinite(trees[i].dbh)) tally.dbh.push_back(trees[i].dbh - s.dbh);
+    if (std::isfinite(error)) tally.dbh.push_back(error);
     tally.position.push_back(across(reported[i], true_ones[stem_of[i]]));
-    tally.base.push_back((T * trees[i].base).z() - s.base.z());
-    tally.lean.push_back(std::acos(std::min(1.0, (T.q * trees[i].axis).dot(s.axis))));
+    tally.base.push_back((T * trees[i].base).z() - s->base.z());
+    tally.lean.push_back(std::acos(std::min(1.0, (T.q * trees[i].axis).dot(s->axis))));
   }
 }
 

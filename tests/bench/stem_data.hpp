@@ -49,6 +49,9 @@ struct Judging {
   double radius = 0.3;        ///< a report belongs to a stem at most so far away, at 1.3 m [m]
   double counted_dbh = 0.10;  ///< thinner stems are counted apart [m]
   double min_dbh = 0.05;      ///< thinner stems are not asked for [m]
+  /// A report on one of those does not count, unless it is thicker by more than this: then it is
+  /// wrong, not a right one with a wrong diameter [m].
+  double sapling_error = 0.03;
 };
 
 /// One node's trees (base frame) against the truth. Pairs are one to one, nearest first.

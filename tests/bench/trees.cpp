@@ -32,6 +32,7 @@ struct Result {
   std::size_t accepted = 0, wrong = 0, far = 0, far_accepted = 0;
   std::vector<double> position, height;  ///< errors of the right ones [m]
   std::vector<double> milliseconds;      ///< of a query
+  std::vector<std::string> mistakes;     ///< a line each
 };
 
 double baseline(const TreeMission& q, std::size_t i, const TreeMission& r, const Pairing& pairing) {
@@ -39,6 +40,17 @@ double baseline(const TreeMission& q, std::size_t i, const TreeMission& r, const
   for (std::size_t k = 0; k < r.truth.size(); ++k)
     if (pairing.allowed(i, k)) nearest = std::min(nearest, (q.truth[i].t - r.truth[k].t).norm());
   return nearest;
+}
+
+std::string mistake(const TreeMission& q, std::size_t i, const TreeMission& r, const Candidate& c,
+                    double baseline, const SE3& error) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "wrong: %s/%zu at %s/%zu, %.1f m from its path: off by %.2f m, %.2f deg; score %.1f",
+      q.mission.name.c_str(), i, r.mission.name.c_str(), c.reference, baseline,
+      error.t.head<2>().norm(), rotation_angle(error) * 180 / std::numbers::pi, c.score);
+  return text;
 }
 
 void judge(const TreeMission& q, const TreeMission& r, bool within, double limit,
@@ -68,6 +80,7 @@ void judge(const TreeMission& q, const TreeMission& r, bool within, double limit
     out.far_accepted += distance > far;
     tally.right += right;
     tally.right_in_space += right && error.t.norm() < limit;
+    if (!right) out.mistakes.push_back(mistake(q, i, r, it->second, distance, error));
     if (!right) continue;
     out.position.push_back(off);
     out.height.push_back(std::abs(error.t.z()));
@@ -96,6 +109,7 @@ void print(const std::string& name, const Result& result) {
   row("up to 20 m", near);
   std::printf("\naccepted %zu, of them wrong %zu; farther than 80 m: %zu queries, %zu accepted\n",
               result.accepted, result.wrong, result.far, result.far_accepted);
+  for (const std::string& line : result.mistakes) std::printf("%s\n", line.c_str());
   if (result.position.empty()) return;
   std::printf(
       "position error [m]: median %.3f, 95 %% %.3f; height error: median %.3f, 95 %% %.3f\n",

@@ -2,13 +2,25 @@
 // Where missions, their trajectories and the globe are in the map frame.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "cambium/fused.hpp"
+#include "model/own_frame.hpp"
 
 namespace cambium {
 
 SE3 T_map_mission(const MissionState& state) {
   if (state.mission->nodes.empty()) return {};
   return state.T_map_node->front() * state.mission->nodes.front().T_mission_node.inverse();
+}
+
+bool gives_map_frame(const MissionState& state, const Island& island, const Atlas& atlas) {
+  if (&state != &atlas.missions[island.missions.front()]) return false;
+  if (island.missions.size() == 1) return true;
+  // Relaxation leans a first node by less, a frame that gravity contradicts lies by more off.
+  constexpr double max_tilt = 5 * std::numbers::pi / 180;
+  return (T_map_mission(state).q * Vec3(Vec3::UnitZ())).z() > std::cos(max_tilt);
 }
 
 std::optional<GeoReference> georeference(const Atlas& atlas, const Island& island) {

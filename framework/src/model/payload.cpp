@@ -4,8 +4,8 @@
 namespace cambium {
 namespace {
 
-void copy_row(const std::vector<float>& from, std::vector<float>& to, std::size_t i,
-              std::size_t width) {
+template <class T>
+void copy_row(const std::vector<T>& from, std::vector<T>& to, std::size_t i, std::size_t width) {
   if (from.empty()) return;
   to.insert(to.end(), from.begin() + std::ptrdiff_t(i * width),
             from.begin() + std::ptrdiff_t((i + 1) * width));
@@ -18,10 +18,12 @@ Cloud select(const Cloud& cloud, const std::vector<std::size_t>& indices) {
   out.xyz.reserve(3 * indices.size());
   if (!cloud.normals.empty()) out.normals.reserve(3 * indices.size());
   if (!cloud.intensity.empty()) out.intensity.reserve(indices.size());
+  if (!cloud.label.empty()) out.label.reserve(indices.size());
   for (const std::size_t i : indices) {
     copy_row(cloud.xyz, out.xyz, i, 3);
     copy_row(cloud.normals, out.normals, i, 3);
     copy_row(cloud.intensity, out.intensity, i, 1);
+    copy_row(cloud.label, out.label, i, 1);
   }
   return out;
 }
@@ -43,7 +45,9 @@ Cloud transformed(const SE3& T_target_source, const Cloud& cloud) {
 }
 
 std::size_t Payload::bytes() const {
-  return (cloud ? cloud->bytes() : 0) + (trees ? trees->capacity() * sizeof(Tree) : 0);
+  return (cloud ? cloud->bytes() : 0) + (trees ? trees->capacity() * sizeof(Tree) : 0) +
+         (images ? images->capacity() * sizeof(Image) : 0) +
+         (imu ? imu->capacity() * sizeof(ImuSample) : 0);
 }
 
 }  // namespace cambium

@@ -78,7 +78,7 @@ class DuplicateStems final : public Evaluator {
         context.check_cancelled();
         const bool tied = atlas.missions[a].island == atlas.missions[b].island;
         if (!tied && by == By::map) continue;  // in frames that say nothing of each other
-        for (const Pair& pair : mutual_nearest(maps[a], maps[b], by, radius_))
+        for (const Pair& pair : shared(maps[a], maps[b], by, radius_))
           out.push_back(tied ? pair.distance(By::map) : std::numeric_limits<double>::infinity());
       }
     return out;

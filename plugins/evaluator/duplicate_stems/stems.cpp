@@ -1,54 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stems.hpp"
 
-#include <array>
-#include <cmath>
-#include <map>
+#include "cambium/stems.hpp"
 
 namespace duplicate_stems {
 namespace {
 
 using namespace cambium;
-using Point = Eigen::Vector2d;
 
-Point place(const Stem& stem, By by) {
-  return (by == By::map ? stem.p_map : stem.p_world).head<2>();
+const Vec3& place(const Stem& stem, By by) { return by == By::map ? stem.p_map : stem.p_world; }
+
+std::vector<Vec3> places(const std::vector<Stem>& stems, By by) {
+  std::vector<Vec3> out;
+  for (const Stem& s : stems) out.push_back(place(s, by));
+  return out;
 }
-
-/// Points in square cells as wide as the radius of the searches: the nearest one lies in nine
-/// cells.
-class Grid {
- public:
-  explicit Grid(double radius) : radius_(radius) {}
-
-  void insert(const Point& p, std::size_t index) { cells_[cell(p)].push_back({p, index}); }
-
-  /// The nearest point less than the radius away, the first of equals.
-  std::optional<std::size_t> nearest(const Point& p) const {
-    std::optional<std::size_t> best;
-    double best_distance = radius_;
-    const auto [x, y] = cell(p);
-    for (long i = x - 1; i <= x + 1; ++i)
-      for (long j = y - 1; j <= y + 1; ++j) {
-        const auto it = cells_.find({i, j});
-        if (it == cells_.end()) continue;
-        for (const auto& [q, index] : it->second) {
-          const double distance = (p - q).norm();
-          const bool earlier = best && distance == best_distance && index < *best;
-          if (distance < best_distance || earlier) best = index, best_distance = distance;
-        }
-      }
-    return best;
-  }
-
- private:
-  std::array<long, 2> cell(const Point& p) const {
-    return {std::lround(std::floor(p.x() / radius_)), std::lround(std::floor(p.y() / radius_))};
-  }
-
-  double radius_;
-  std::map<std::array<long, 2>, std::vector<std::pair<Point, std::size_t>>> cells_;
-};
 
 }  // namespace
 
@@ -74,39 +40,34 @@ std::vector<Detection> detections(const MissionView& mission, const Truth& truth
 
 std::vector<Stem> stems(const std::vector<Detection>& detections, By by, double radius,
                         int min_sightings) {
-  // A group is looked up where its first detection lies, so that it cannot wander.
-  Grid first(radius);
-  std::vector<Stem> groups;
+  std::vector<const Detection*> known;
+  std::vector<Vec3> at;
   for (const Detection& d : detections) {
     if (by == By::truth && !d.p_world) continue;
-    const Point p = by == By::map ? d.p_map.head<2>() : d.p_world->head<2>();
-    auto group = first.nearest(p);
-    if (!group) {
-      group = groups.size();
-      groups.emplace_back();
-      first.insert(p, *group);
-    }
-    Stem& stem = groups[*group];
-    ++stem.sightings;
-    stem.p_map += (d.p_map - stem.p_map) / stem.sightings;
-    if (d.p_world) stem.p_world += (*d.p_world - stem.p_world) / stem.sightings;
+    known.push_back(&d);
+    at.push_back(by == By::map ? d.p_map : *d.p_world);
   }
-  std::erase_if(groups, [&](const Stem& s) { return s.sightings < min_sightings; });
-  return groups;
+  std::vector<Stem> out;
+  for (const auto& group : cambium::plan_groups(at, radius)) {
+    if (group.size() < std::size_t(min_sightings)) continue;
+    Stem stem;
+    for (const std::size_t i : group) {
+      ++stem.sightings;
+      stem.p_map += (known[i]->p_map - stem.p_map) / stem.sightings;
+      if (known[i]->p_world) stem.p_world += (*known[i]->p_world - stem.p_world) / stem.sightings;
+    }
+    out.push_back(stem);
+  }
+  return out;
 }
 
-double Pair::distance(By by) const { return (place(a, by) - place(b, by)).norm(); }
+double Pair::distance(By by) const { return (place(a, by) - place(b, by)).head<2>().norm(); }
 
-std::vector<Pair> mutual_nearest(const std::vector<Stem>& a, const std::vector<Stem>& b, By by,
-                                 double radius) {
-  Grid grid_a(radius), grid_b(radius);
-  for (std::size_t i = 0; i < a.size(); ++i) grid_a.insert(place(a[i], by), i);
-  for (std::size_t i = 0; i < b.size(); ++i) grid_b.insert(place(b[i], by), i);
+std::vector<Pair> shared(const std::vector<Stem>& a, const std::vector<Stem>& b, By by,
+                         double radius) {
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto j = grid_b.nearest(place(a[i], by));
-    if (j && grid_a.nearest(place(b[*j], by)) == i) pairs.push_back({a[i], b[*j]});
-  }
+  for (const auto& [i, j] : cambium::mutual_nearest(places(a, by), places(b, by), radius))
+    pairs.push_back({a[i], b[j]});
   return pairs;
 }
 

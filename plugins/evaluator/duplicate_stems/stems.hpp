@@ -28,8 +28,8 @@ struct Stem {
 
 enum class By { map, truth };
 
-/// Groups detections that lie within `radius` [m] of each other, horizontally, in the map or by the
-/// truth (then those without a true pose are left out); keeps groups of at least `min_sightings`.
+/// Groups detections as an inventory does (plan_groups), in the map or by the truth (then those
+/// without a true pose are left out); keeps groups of at least `min_sightings`.
 std::vector<Stem> stems(const std::vector<Detection>& detections, By by, double radius,
                         int min_sightings);
 
@@ -39,7 +39,7 @@ struct Pair {
 };
 
 /// Stems of two missions that are each other's nearest, less than `radius` [m] apart.
-std::vector<Pair> mutual_nearest(const std::vector<Stem>& a, const std::vector<Stem>& b, By by,
-                                 double radius);
+std::vector<Pair> shared(const std::vector<Stem>& a, const std::vector<Stem>& b, By by,
+                         double radius);
 
 }  // namespace duplicate_stems

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "cambium/ground.hpp"
 #include "cambium/plugin.hpp"
 #include "cambium/statistics.hpp"
-#include "ground.hpp"
 
 namespace ground_separation {
 namespace {
@@ -43,7 +43,7 @@ class GroundSeparation final : public Evaluator {
       if (island.missions.size() < 2) continue;
       std::vector<Ground> grounds;
       for (const std::uint32_t m : island.missions)
-        grounds.emplace_back(MissionView{atlas, m}, options_, context);
+        grounds.emplace_back(atlas, std::vector{m}, options_, context);
       for (std::size_t b = 1; b < grounds.size(); ++b)
         for (std::size_t a = 0; a < b; ++a) {
           context.check_cancelled();

@@ -11,13 +11,13 @@ class Joined {
   explicit Joined(double voxel) : voxel_(voxel), means_(voxel) {}
 
   void add(const cambium::Cloud& cloud);
-  /// Normals and intensities only when every cloud with a point had them.
+  /// Normals, intensities and labels only when every cloud with a point had them.
   cambium::Cloud take();
 
  private:
   double voxel_;
   cambium::filter::VoxelMeans means_;
-  bool normals_ = true, intensity_ = true;
+  bool normals_ = true, intensity_ = true, label_ = true;
   cambium::Cloud all_;
 };
 
@@ -27,20 +27,23 @@ inline void Joined::add(const cambium::Cloud& cloud) {
     means_.add(cloud);
     return;
   }
-  const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+  const auto append = [](auto& to, const auto& from) {
     to.insert(to.end(), from.begin(), from.end());
   };
   append(all_.xyz, cloud.xyz);
   normals_ = normals_ && !cloud.normals.empty();
   intensity_ = intensity_ && !cloud.intensity.empty();
   if (normals_) append(all_.normals, cloud.normals);
+  label_ = label_ && !cloud.label.empty();
   if (intensity_) append(all_.intensity, cloud.intensity);
+  if (label_) append(all_.label, cloud.label);
 }
 
 inline cambium::Cloud Joined::take() {
   if (voxel_ > 0) return means_.means();
   if (!normals_) all_.normals.clear();
   if (!intensity_) all_.intensity.clear();
+  if (!label_) all_.label.clear();
   return std::move(all_);
 }
 

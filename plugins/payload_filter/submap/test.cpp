@@ -60,6 +60,7 @@ TEST(Submap, PointsNormalsAndIntensitiesComeIntoTheFrameOfTheNode) {
   cloud.xyz = {2, 0, 1};
   cloud.normals = {0, 1, 0};
   cloud.intensity = {7};
+  cloud.label = {64};
   const SE3 T_a_b = SE3::from_yaw(M_PI / 2, {1, 0, 0});
   Mission mission = make_mission("a", {SE3{}, T_a_b});
   mission.nodes[0].payload = in_memory(cloud);
@@ -75,6 +76,7 @@ TEST(Submap, PointsNormalsAndIntensitiesComeIntoTheFrameOfTheNode) {
           EXPECT_NEAR(out.normals[3 * i + k], expected.normals[k], 1e-5) << yaml;
         }
       EXPECT_EQ(out.intensity, std::vector<float>(out.size(), 7.f)) << yaml;
+      EXPECT_EQ(out.label, std::vector<std::uint8_t>(out.size(), 64)) << yaml;
     }
 }
 
@@ -104,6 +106,7 @@ TEST(Submap, ThinnedIsTheVoxelGridOfAllPoints) {
 TEST(Submap, ChannelsThatSomeCloudsLackAreLeftOut) {
   Cloud rich = origin();
   rich.intensity = {3};
+  rich.label = {2};
   rich.normals = {0, 0, 1};
   Mission mission = line(2, origin());
   mission.nodes[1].payload = in_memory(rich);
@@ -111,7 +114,7 @@ TEST(Submap, ChannelsThatSomeCloudsLackAreLeftOut) {
     for (const std::size_t node : {0, 1}) {
       const Cloud out = filtered(make_atlas({mission}), node, yaml);
       EXPECT_EQ(out.size(), 2u);
-      EXPECT_TRUE(out.intensity.empty() && out.normals.empty()) << yaml;
+      EXPECT_TRUE(out.intensity.empty() && out.normals.empty() && out.label.empty()) << yaml;
     }
 }
 

@@ -67,6 +67,10 @@ class Overlayer {
   std::vector<std::uint32_t> owner_;  // which match holds a stem of the reference
 };
 
+/// Two frames whose verticals differ by more were not levelled alike: one has a wrong gravity
+/// [rad].
+constexpr double wrong_gravity = 0.087;
+
 /// Lifts the planar motion to space: height, roll and pitch from the bases of the matched stems,
 /// dz = z + roll y - pitch x, by reweighted least squares with Cauchy's loss. `sigma_tilt` [rad]
 /// is how well gravity is known: a few stems in a line do not tilt the map. Nothing where fewer

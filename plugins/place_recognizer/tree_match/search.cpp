@@ -44,7 +44,6 @@ std::size_t Reference::nearest_node(const Overlay& overlay, std::uint32_t end) c
 // Wrong answers find many matches, too; what gives them away is that others find as many.
 double Reference::rival(const std::vector<Overlay>& overlays, std::size_t node,
                         std::uint32_t end) const {
-  constexpr double same_yaw = 0.35;  // [rad]
   const Planar& best = overlays.front().T_reference_query;
   double highest = 0;
   for (const Overlay& o : overlays) {
@@ -80,6 +79,18 @@ std::vector<Overlay> Reference::hypotheses(std::span<const Stem> stems, std::uin
   return overlays;
 }
 
+bool Reference::any_good(const Overlay& best) const {
+  const Acceptance& accept = limits_.acceptance;
+  return best.matches.size() >= std::size_t(accept.min_matches) &&
+         best.score >= std::min(accept.min_score, limits_.consensus.supported_score);
+}
+
+bool Reference::may_hold(const Place& query, std::size_t node) const {
+  const auto stems = stems_around(query, node, limits_.query);
+  const auto overlays = hypotheses(stems, std::uint32_t(place_.path.size()));
+  return !overlays.empty() && any_good(overlays.front());
+}
+
 std::optional<Found> Reference::locate(const Place& query, std::size_t node,
                                        std::uint32_t end) const {
   const std::vector<Stem> stems = stems_around(query, node, limits_.query);
@@ -87,13 +98,13 @@ std::optional<Found> Reference::locate(const Place& query, std::size_t node,
   const Acceptance& accept = limits_.acceptance;
   if (overlays.empty()) return std::nullopt;
   const Overlay& best = overlays.front();
-  if (best.matches.size() < std::size_t(accept.min_matches) || best.score < accept.min_score)
-    return std::nullopt;
+  if (!any_good(best)) return std::nullopt;
   const std::size_t r = nearest_node(best, end);
-  if (rival(overlays, r, end) > (1 - accept.min_margin) * best.score) return std::nullopt;
+  const bool sure = best.score >= accept.min_score &&
+                    rival(overlays, r, end) <= (1 - accept.min_margin) * best.score;
   const SE3 T_reference_query = relative_pose(best, stems, query, node, r);
   if (T_reference_query.t.head<2>().norm() > accept.max_distance) return std::nullopt;
-  return Found{r, T_reference_query, best.score};
+  return Found{r, T_reference_query, best.score, sure};
 }
 
 }  // namespace tree_match

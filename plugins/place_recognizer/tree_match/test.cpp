@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cambium/statistics.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -97,6 +98,79 @@ TEST(TreeMatch, NoPairIsFartherApartThanAllowed) {
                 b = walk("b", world, line(80, -80, 20, std::numbers::pi));
   EXPECT_FALSE(match(b, a).empty());
   EXPECT_TRUE(match(b, a, "{max_distance: 15}").empty());
+}
+
+/// The bases of nodes `from` to `to` lie this much too high.
+Mission lifted(Mission mission, std::size_t from, std::size_t to, double height) {
+  for (std::size_t i = from; i < to; ++i) {
+    auto trees = *mission.nodes[i].payload->load().trees;
+    for (Tree& t : trees) t.base.z() += height;
+    mission.nodes[i].payload =
+        in_memory(Payload{nullptr, std::make_shared<const std::vector<Tree>>(std::move(trees))});
+  }
+  return mission;
+}
+
+double worst_height_error(const std::vector<Candidate>& found, const std::vector<SE3>& query,
+                          const std::vector<SE3>& reference) {
+  double worst = 0;
+  for (const Candidate& c : found) {
+    const SE3 error = (reference[c.reference].inverse() * query[c.query]).inverse() *
+                      c.T_reference_query.value_or(SE3{});
+    worst = std::max(worst, std::abs(error.t.z()));
+  }
+  return worst;
+}
+
+TEST(TreeMatch, HeightsAreThoseThatTheNeighboursAgreeOn) {
+  const auto world = forest(1);
+  const auto there = line(-80, 80, 0, 0), back = line(80, -80, 6, std::numbers::pi);
+  const Mission a = walk("a", world, there), b = lifted(walk("b", world, back), 30, 45, 1.5);
+  EXPECT_LT(worst_height_error(match(b, a), back, there), 0.3);
+  EXPECT_GT(worst_height_error(match(b, a, "{consensus_window: 0}"), back, there), 0.8);
+}
+
+TEST(TreeMatch, NeighboursVouchForAnAnswerThatIsNotSure) {
+  const auto world = forest(1);
+  const auto there = line(-80, 80, 0, 0), back = line(80, -80, 32, std::numbers::pi);
+  const Mission a = walk("a", world, there), b = walk("b", world, back);
+  std::vector<double> scores;
+  for (const Candidate& c : match(b, a)) scores.push_back(c.score);
+  const std::string half = "min_score: " + std::to_string(median(scores));  // are sure
+  const auto alone = match(b, a, "{min_support: 1000, " + half + "}"),
+             together = match(b, a, "{" + half + "}");
+  EXPECT_LT(alone.size(), 6 * scores.size() / 10);
+  EXPECT_GT(together.size(), 9 * scores.size() / 10);
+  for (const Candidate& c : together)
+    EXPECT_LT(
+        (there[c.reference].inverse() * back[c.query] * c.T_reference_query->inverse()).t.norm(),
+        0.5);
+}
+
+// Two paths that cross: only some of the nodes see what the other mission saw, and probes between
+// them must be as good.
+TEST(TreeMatch, ProbesLoseNothingWhereMissionsMeetForAShortWhileOnly) {
+  const auto world = forest(1);
+  std::vector<SE3> across;
+  for (double y = -58; y <= 58; y += 2) across.push_back(SE3::from_yaw(1.57, {70, y, 0}));
+  const Mission a = walk("a", world, line(-80, 80, 0, 0)), b = walk("b", world, across);
+  const auto probed = match(b, a, "{probe_spacing: 40}"), all = match(b, a, "{probe_spacing: 0}");
+  EXPECT_GT(all.size(), 10u);
+  EXPECT_LT(all.size(), across.size());
+  ASSERT_EQ(probed.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(probed[i].query, all[i].query);
+    EXPECT_EQ(probed[i].score, all[i].score);
+  }
+}
+
+TEST(TreeMatch, WhereNoProbeFindsAnythingNothingElseIsTried) {
+  const auto world = forest(1);
+  const Mission a = walk("a", world, line(-110, -50, 0, 0)),
+                b = walk("b", world, line(110, -80, 0, 0));
+  EXPECT_FALSE(match(b, a).empty());
+  // The first node, the only probe then, stands at the other end of the forest.
+  EXPECT_TRUE(match(b, a, "{probe_spacing: 1000}").empty());
 }
 
 TEST(TreeMatch, ALatticeIsRefused) {

@@ -2,11 +2,19 @@
 // Place recognition by the pattern that tree stems make.
 #include "cambium/path.hpp"
 #include "cambium/plugin.hpp"
-#include "search.hpp"
+#include "consensus.hpp"
 
 namespace tree_match {
 
 using namespace cambium;
+
+/// The first node, and every one that is `spacing` or more along the path from the one before.
+std::vector<std::size_t> spread(const std::vector<double>& path, double spacing) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (out.empty() || path[i] - path[out.back()] >= spacing) out.push_back(i);
+  return out;
+}
 
 class TreeMatch final : public PlaceRecognizer {
  public:
@@ -33,6 +41,8 @@ class TreeMatch final : public PlaceRecognizer {
                                const Pairing& pairing, const Context& context) const override {
     const Place from = from_fingerprints(query);
     const Reference to(from_fingerprints(reference), limits_);
+    if (!pairing.within_mission && probe_spacing_ > 0 && !may_have_met(from, to, context))
+      return {};
     std::vector<std::optional<Found>> found(query.rows);
     context.parallel_for(query.rows, [&](std::size_t q) {
       context.check_cancelled();
@@ -41,6 +51,7 @@ class TreeMatch final : public PlaceRecognizer {
       while (end < reference.rows && pairing.allowed(q, end)) ++end;
       if (end > 0) found[q] = to.locate(from, q, end);
     });
+    found = by_consensus(found, from, to.place(), limits_);
     std::vector<Candidate> out;
     for (std::size_t q = 0; q < found.size(); ++q)
       if (found[q])
@@ -52,9 +63,23 @@ class TreeMatch final : public PlaceRecognizer {
   void map_params(ParamVisitor& v);
   void shape_params(ParamVisitor& v);
   void pose_params(ParamVisitor& v);
+  void consensus_params(ParamVisitor& v);
+
+  /// Tries a query every `probe_spacing` only. The others see nearly the same stems, so where none
+  /// of these could be accepted, none of them would be: missions that never met cost an eighth.
+  bool may_have_met(const Place& from, const Reference& to, const Context& context) const {
+    const auto probes = spread(from.path, probe_spacing_);
+    std::vector<std::uint8_t> held(probes.size());
+    context.parallel_for(probes.size(), [&](std::size_t i) {
+      context.check_cancelled();
+      held[i] = to.may_hold(from, probes[i]);
+    });
+    return std::ranges::any_of(held, [](std::uint8_t h) { return h != 0; });
+  }
 
   MapLimits map_;
   Limits limits_;
+  double probe_spacing_ = 10.0;
 };
 
 void TreeMatch::map_params(ParamVisitor& v) {
@@ -73,7 +98,7 @@ void TreeMatch::map_params(ParamVisitor& v) {
 }
 
 void TreeMatch::shape_params(ParamVisitor& v) {
-  auto& [query, triangles, index, votes, alignment, acceptance, finalists, table_radius,
+  auto& [query, triangles, index, votes, alignment, acceptance, consensus, finalists, table_radius,
          table_matches, sigma_tilt] = limits_;
   v("window", query.window, "A query is made of the stems seen up to so far along the path",
     at_least(0.0, "m"));
@@ -120,10 +145,31 @@ void TreeMatch::pose_params(ParamVisitor& v) {
   v("sigma_tilt", limits_.sigma_tilt, "How well gravity is known", above(0.0, "rad"));
 }
 
+void TreeMatch::consensus_params(ParamVisitor& v) {
+  auto& consensus = limits_.consensus;
+  v("support_window", consensus.support_window,
+    "Answers of neighbours up to so far along the path support one another", at_least(0.0, "m"));
+  v("min_support", consensus.min_support,
+    "Answers below min_score or min_margin count when so many sure neighbours agree",
+    between(1, 1000));
+  v("supported_score", consensus.supported_score, "Least score of such answers");
+  v("consensus_window", consensus.window,
+    "Neighbours up to so far along the path may outvote an answer, and say how high it is",
+    at_least(0.0, "m"));
+  v("agree", consensus.agree, "Two answers that put a node at most so far apart agree",
+    above(0.0, "m"));
+  v("agree_yaw", consensus.agree_yaw, "And turn it at most by so much", above(0.0, "rad"));
+}
+
 void TreeMatch::params(ParamVisitor& v) {
   map_params(v);
+  v("probe_spacing", probe_spacing_,
+    "Between missions, queries so far apart along the path come first; the others follow where one "
+    "of these finds something. 0 = all at once",
+    at_least(0.0, "m"));
   shape_params(v);
   pose_params(v);
+  consensus_params(v);
   auto& accept = limits_.acceptance;
   v("min_matches", accept.min_matches, "Fewer matched stems are no place", between(3, 1000));
   v("min_score", accept.min_score, "Least logarithm of the likelihood ratio", at_least(0.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ground as one mission saw it.
+// The ground as some missions saw it, in cells of the map.
 #pragma once
 #include <array>
 #include <map>
@@ -9,10 +9,9 @@
 #include "cambium/atlas.hpp"
 #include "cambium/context.hpp"
 
-namespace ground_separation {
+namespace cambium {
 
-using cambium::Vec3;
-using Cell = std::array<int, 2>;  ///< east and north, whole cells of the map frame
+using Cell = std::array<int, 2>;  ///< x and y, whole cells of the map frame
 
 struct GroundOptions {
   double cell_size = 1;    ///< [m]
@@ -26,8 +25,9 @@ struct GroundOptions {
 /// but not the ground behind it does not count.
 class Ground {
  public:
-  Ground(const cambium::MissionView& mission, const GroundOptions& options,
-         const cambium::Context& context);
+  /// The missions must share a map frame.
+  Ground(const Atlas& atlas, const std::vector<std::uint32_t>& missions,
+         const GroundOptions& options, const Context& context);
 
   const std::map<Cell, Vec3>& cells() const { return cells_; }
   /// Height above a place of cell `c`, on the plane through the cells around it; nothing when fewer
@@ -39,4 +39,4 @@ class Ground {
   std::map<Cell, Vec3> cells_;
 };
 
-}  // namespace ground_separation
+}  // namespace cambium

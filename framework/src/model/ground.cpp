@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ground.hpp"
+#include "cambium/ground.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-namespace ground_separation {
+namespace cambium {
 namespace {
-
-using namespace cambium;
 
 /// The mean over the lowest layer of the points of a cell.
 Vec3 lowest(const std::vector<Vec3>& points, double thickness) {
@@ -53,17 +51,21 @@ Vec3 median_height(std::vector<Vec3> points) {
 
 }  // namespace
 
-Ground::Ground(const MissionView& mission, const GroundOptions& options, const Context& context)
+Ground::Ground(const Atlas& atlas, const std::vector<std::uint32_t>& missions,
+               const GroundOptions& options, const Context& context)
     : cell_size_(options.cell_size) {
-  std::vector<std::map<Cell, Vec3>> scans(mission.size());
-  context.parallel_for(mission.size(), [&](std::size_t n) {
-    context.check_cancelled();
-    if (const auto cloud = mission.payload(n).cloud)
-      scans[n] = seen_by(*cloud, mission.T_map_node(n), options);
-  });
   std::map<Cell, std::vector<Vec3>> seen;
-  for (const auto& scan : scans)
-    for (const auto& [cell, p] : scan) seen[cell].push_back(p);
+  for (const std::uint32_t m : missions) {
+    const MissionView mission{atlas, m};
+    std::vector<std::map<Cell, Vec3>> scans(mission.size());
+    context.parallel_for(mission.size(), [&](std::size_t n) {
+      context.check_cancelled();
+      if (const auto cloud = mission.payload(n).cloud)
+        scans[n] = seen_by(*cloud, mission.T_map_node(n), options);
+    });
+    for (const auto& scan : scans)
+      for (const auto& [cell, p] : scan) seen[cell].push_back(p);
+  }
   for (const auto& [cell, points] : seen) cells_[cell] = median_height(points);
 }
 
@@ -85,4 +87,4 @@ std::optional<double> Ground::height(const Cell& c, double x, double y) const {
   return solver.solve(Eigen::Vector3d(b)).z();
 }
 
-}  // namespace ground_separation
+}  // namespace cambium
