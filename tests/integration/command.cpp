@@ -8,10 +8,8 @@
 #include <unistd.h>
 #include <csignal>
 
-#include <chrono>
 #include <cmath>
 #include <optional>
-#include <thread>
 
 #include "cambium/files.hpp"
 #include "support/places.hpp"
@@ -33,10 +31,15 @@ pid_t start(std::vector<std::string> arguments, const std::filesystem::path& out
   std::vector<char*> argv;
   for (auto& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);
+  // Opened before the fork: a child may be killed before its first line, and both are read then.
+  const int out_file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   const pid_t child = ::fork();
-  if (child != 0) return child;
-  ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
-  ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
+  if (child != 0) {
+    ::close(out_file), ::close(err_file);
+    return child;
+  }
+  ::dup2(out_file, 1), ::dup2(err_file, 2);
   ::setenv("CAMBIUM_CACHE", (out.parent_path() / "cache").c_str(), 1);
   if (largest_file) limit_files(*largest_file);
   ::execv(argv[0], argv.data());
@@ -64,11 +67,11 @@ Outcome run_cambium_on_full_disk(const std::vector<std::string>& arguments,
                 folder / "err");
 }
 
-Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds,
-                                int signal) {
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments,
+                                const std::function<void()>& moment, int signal) {
   const TemporaryFolder folder;
   const pid_t child = start(arguments, folder / "out", folder / "err");
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  moment();
   ::kill(child, signal);
   return finish(child, folder / "out", folder / "err");
 }
@@ -84,8 +87,6 @@ double metric(const nlohmann::json& report, const std::string& name) {
   return std::nan("");
 }
 
-std::string pipeline(const std::string& name) {
-  return source("pipelines/" + name).string();
-}
+std::string pipeline(const std::string& name) { return source("pipelines/" + name).string(); }
 
 }  // namespace cambium::testing

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the command line as a user would.
 #pragma once
-#include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,9 +19,9 @@ struct Outcome {
 /// one.
 Outcome run_cambium(const std::vector<std::string>& arguments);
 
-/// The same, interrupted by a signal after `seconds`.
-Outcome run_cambium_interrupted(const std::vector<std::string>& arguments, double seconds,
-                                int signal = SIGINT);
+/// The same, sent a signal when `moment` returns, which sleeps or waits for what the run does.
+Outcome run_cambium_interrupted(const std::vector<std::string>& arguments,
+                                const std::function<void()>& moment, int signal);
 
 /// The same where no file can become larger than `largest_file` bytes.
 Outcome run_cambium_on_full_disk(const std::vector<std::string>& arguments,

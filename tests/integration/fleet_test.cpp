@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Many missions: their order, islands, copies, and what is done with a finished run.
 #include <algorithm>
+#include <cstdio>
+#include <sstream>
 
 #include "cambium/dialect.hpp"
 #include "cambium/files.hpp"
@@ -122,4 +124,45 @@ TEST_F(Fleet, PosesAtOtherStamps) {
   EXPECT_CONTAINS(csv, "\nb,2003,500000000,");
   EXPECT_EQ(run_cambium({"poses", path("ab"), "--at", path("times.csv"), "--mission", "z"}).code,
             2);
+}
+
+// Between two nodes the robot went round something, and only its odometry knows.
+TEST_F(Fleet, PosesBetweenNodesFollowTheOdometryOfTheMissionsFolder) {
+  ASSERT_EQ(run({"a", "b"}, "ab").code, 0);
+  write_file(path("times.csv"), "1002\n1002.5\n1003\n");
+  const auto poses = [&](const std::string& name) {
+    EXPECT_EQ(run_cambium({"poses", path("ab"), "--at", path("times.csv"), "--mission", "a",
+                           "--out", path(name)})
+                  .code,
+              0);
+    std::vector<Vec3> out;
+    std::istringstream lines(text(name));
+    std::string line;
+    for (std::getline(lines, line); std::getline(lines, line);) {
+      Vec3 t;
+      long long sec = 0, nsec = 0;
+      EXPECT_EQ(
+          std::sscanf(line.c_str(), "a,%lld,%lld,%lf,%lf,%lf", &sec, &nsec, &t[0], &t[1], &t[2]), 5)
+          << line;
+      out.push_back(t);
+    }
+    return out;
+  };
+  const auto straight = poses("without.csv");
+  const Mission a = read_g2o(path("a/slam_pose_graph.g2o"));
+  std::vector<StampedPose> odometry;
+  for (int half = 0; half < 8; ++half) {  // in another frame, half a second apart
+    SE3 T =
+        interpolate(a.nodes[half / 2].T_mission_node, a.nodes[(half + 1) / 2].T_mission_node, 0.5);
+    if (half == 5) T = T * SE3::from_yaw(0, {0, 0.7, 0});
+    odometry.push_back(
+        {{1000 + half / 2, half % 2 * 500'000'000}, SE3::from_yaw(1, {9, 9, 9}) * T});
+  }
+  write_file(path("a/odometry.tum"), format_tum(odometry));
+  const auto round = poses("with.csv");
+  ASSERT_EQ(straight.size(), 3u);
+  ASSERT_EQ(round.size(), 3u);
+  EXPECT_LT((round[0] - straight[0]).norm(), 1e-9);
+  EXPECT_NEAR((round[1] - straight[1]).norm(), 0.7, 0.02);
+  EXPECT_LT((round[2] - straight[2]).norm(), 1e-9);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/simulate.hpp"
 
+#include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "cambium/error.hpp"
 #include "simulate/folders.hpp"
@@ -85,6 +87,39 @@ TEST(Simulate, ReconstructedStemsStandWhereTheMapSaysTheyDo) {
   }
   EXPECT_GT(checked, 100u);
   EXPECT_EQ(found, checked);
+}
+
+// Trunks lean by some 2 degrees, so nearly all of their points lie within a metre of a foot; others
+// seldom do.
+TEST(Simulate, LabelsSayWhatTheRaysHit) {
+  std::string labelled = text;
+  labelled.replace(labelled.find("sensor: {"), 9, "sensor: {labels: true, ");
+  TemporaryFolder folder;
+  simulate(parse_spec(labelled, "spec.yaml"), labelled, folder.path(), *make_context(2));
+  const auto reader = testing::component<MissionReader>("mission_folder");
+  const Mission mission = reader->read(folder / "a", *make_context());
+  const auto truth = read_tum(folder / "a/ground_truth.tum");
+  std::vector<Vec3> feet;
+  std::istringstream table(read_file(folder / "stems.csv"));
+  std::string line;
+  for (std::getline(table, line); std::getline(table, line);)
+    feet.push_back({std::stod(line), std::stod(line.substr(line.find(',') + 1)), 0});
+  std::map<int, int> all, near;
+  for (std::size_t n = 0; n < mission.nodes.size(); ++n) {
+    const Payload payload = mission.nodes[n].payload->load();
+    const Cloud& cloud = *payload.cloud;
+    ASSERT_EQ(cloud.label.size(), cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Vec3 p = truth[n].T_map_node * Vec3(cloud.points().col(Eigen::Index(i)).cast<double>());
+      ++all[cloud.label[i]];
+      near[cloud.label[i]] += std::ranges::any_of(
+          feet, [&](const Vec3& foot) { return (foot - p).head<2>().norm() < 1; });
+    }
+  }
+  for (const int label : {2, 64, 66}) EXPECT_GT(all[label], 50) << label;
+  EXPECT_EQ(all[0], 0);
+  EXPECT_GT(near[64], 0.98 * all[64]);
+  EXPECT_LT(near[2], all[2] / 2);
 }
 
 TEST(Simulate, LoopsAreNearAndAllOfThem) {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "cambium/files.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/yaml.hpp"
+#include "support/support.hpp"
 
 using namespace cambium;
 
@@ -111,4 +113,61 @@ TEST(Yaml, DuplicateKeysAreErrors) {
   } catch (const Error& e) {
     EXPECT_STREQ(e.what(), "p.yaml:2:11: duplicate key 'c', first given at p.yaml:2:5");
   }
+}
+
+namespace {
+
+class WithFile : public Component {
+ public:
+  std::string model, other;
+  void params(ParamVisitor& v) override {
+    v("model", model, "Weights of the network", in_unit("file"));
+    v("other", other, "A text that is no file");
+  }
+};
+
+void bind_at(Component& c, const std::string& yaml, const std::filesystem::path& file) {
+  Diagnostics diagnostics;
+  bind_params(c, parse_yaml(yaml, file.string(), diagnostics), diagnostics);
+  diagnostics.throw_if_any();
+}
+
+}  // namespace
+
+TEST(BinderFiles, AreRelativeToTheFileThatNamesThem) {
+  const cambium::testing::TemporaryFolder folder;
+  write_file(folder / "net.onnx", "weights");
+  WithFile c;
+  bind_at(c, "{model: net.onnx, other: net.onnx}", folder / "p.yaml");
+  EXPECT_EQ(c.model, (folder / "net.onnx").string());
+  EXPECT_EQ(c.other, "net.onnx");
+  bind_at(c, "model: ''", folder / "p.yaml");
+  EXPECT_EQ(c.model, "");
+}
+
+TEST(BinderFiles, MustBeThere) {
+  const cambium::testing::TemporaryFolder folder;
+  WithFile c;
+  try {
+    bind_at(c, "{model: nett.onnx}", folder / "p.yaml");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("there is no file '" + (folder / "nett.onnx").string()),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+TEST(BinderFiles, CountByTheirContentForTheKey) {
+  const cambium::testing::TemporaryFolder folder;
+  const auto key = [&](const std::string& name, const std::string& content) {
+    write_file(folder / name, content);
+    WithFile c;
+    bind_at(c, "model: " + name, folder / "p.yaml");
+    return identifying_params(c);
+  };
+  EXPECT_EQ(key("a", "weights"), key("b", "weights"));
+  EXPECT_NE(key("a", "weights"), key("a", "other weights"));
+  EXPECT_EQ(identifying_params(*std::make_unique<WithFile>()),
+            canonical_params(*std::make_unique<WithFile>()));
 }

@@ -5,6 +5,7 @@
 #include "cambium/files.hpp"
 #include "engine/run.hpp"
 #include "support/support.hpp"
+#include "support/trusting.hpp"
 
 using namespace cambium;
 namespace fs = std::filesystem;
@@ -47,20 +48,11 @@ struct SameNumber final : PlaceRecognizer {
   }
 };
 
-struct TrustGuess final : Registration {
-  Alignment align(const Prepared&, const Prepared&, const SE3& guess,
-                  const Context&) const override {
+struct NeverSure final : Registration {
+  Alignment align(const Prepared&, const Prepared&, const SE3&, const Context&) const override {
     Alignment a;
-    a.converged = true;
-    a.T_target_source = guess;
+    a.reason = "never sure";
     return a;
-  }
-};
-
-struct AcceptAll final : LoopVerifier {
-  std::vector<Verdict> verify(const Atlas&, std::span<const std::size_t> loops,
-                              const Context&) const override {
-    return std::vector<Verdict>(loops.size(), {true, "everything is accepted"});
   }
 };
 
@@ -71,6 +63,15 @@ struct StandStill : Solver {
     s.weight.assign(g.relative.size(), 1.0);
     s.converged = true;
     s.marginals.assign(g.marginals.size(), Mat6(0.25 * Mat6::Identity()));
+    return s;
+  }
+};
+
+// Puts the first mission of two 0.3 m higher.
+struct Lifts final : StandStill {
+  Solution solve(const PoseGraph& g, const Context& context) const override {
+    Solution s = StandStill::solve(g, context);
+    for (std::size_t i = 0; i < s.T_map_node.size() / 2; ++i) s.T_map_node[i].t.z() += 0.3;
     return s;
   }
 };
@@ -88,8 +89,10 @@ class EngineRun : public ::testing::Test {
   EngineRun() {
     registry.add<WordReader>("word", "");
     registry.add<SameNumber>("same_number", "");
-    registry.add<TrustGuess>("trust", "");
-    registry.add<AcceptAll>("accept", "");
+    registry.add<cambium::testing::TrustGuess>("trust", "");
+    registry.add<NeverSure>("never_sure", "");
+    registry.add<Lifts>("lifts", "");
+    registry.add<cambium::testing::AcceptAll>("accept", "");
     registry.add<StandStill>("still", "");
     registry.add<NotANumber>("nan", "");
     write_file(folder / "p.yaml",
@@ -130,8 +133,11 @@ TEST_F(EngineRun, FusesMissionsFromDifferentFrames) {
   for (std::uint32_t i = 0; i < 6; ++i)
     EXPECT_LT((r.known.atlas.T_map_node({0, i}).t - r.known.atlas.T_map_node({1, i}).t).norm(),
               1e-9);
-  for (const char* name :
-       {"fused.g2o", "a.tum", "bb.tum", "resolved.yaml", "report.json", "ledger.jsonl"})
+  ASSERT_EQ(r.known.atlas.stages.size(), 1u);
+  EXPECT_EQ(r.known.atlas.stages[0].step, "still");
+  EXPECT_EQ(r.known.atlas.stages[0].T_map_node[1], r.known.atlas.missions[1].T_map_node);
+  for (const char* name : {"fused.g2o", "a.tum", "bb.tum", "resolved.yaml", "report.json",
+                           "report.html", "ledger.jsonl"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
 }
 
@@ -239,6 +245,34 @@ TEST_F(EngineRun, ReportsTheSigmasOfChosenNodes) {
       EXPECT_NE(std::string(e.what()).find(complaint), std::string::npos) << e.what();
     }
   }
+}
+
+TEST_F(EngineRun, AcceptedLoopsAreRegisteredAgainFromTheMap) {
+  const std::string first =
+      "version: 1\nsteps: [{recognize: same_number}, {register: trust}, {verify: accept}, "
+      "{optimize: lifts}, ";
+  write_file(folder / "p.yaml", first + "{register: trust, loops: accepted}]\n");
+  const auto trusted = run({mission("a"), mission("bb")}, "trusted").known.atlas;
+  ASSERT_EQ(trusted.loops.size(), 6u);
+  for (const Loop& loop : trusted.loops) {
+    const SE3 T_map = trusted.T_map_node(loop.tail).inverse() * trusted.T_map_node(loop.head);
+    EXPECT_EQ(loop.state, LoopState::accepted);
+    EXPECT_NEAR(T_map.t.z(), -0.3, 1e-9) << "the recogniser's guess is 0";
+    EXPECT_LT((loop.T_tail_head.t - T_map.t).norm(), 0.02);
+  }
+  write_file(folder / "p.yaml", first + "{register: never_sure, loops: accepted}]\n");
+  for (const Loop& loop : run({mission("a"), mission("bb")}, "unsure").known.atlas.loops) {
+    EXPECT_EQ(loop.state, LoopState::rejected);
+    EXPECT_EQ(loop.reason, "never sure");
+  }
+}
+
+TEST_F(EngineRun, TakesAFolderThatARunWasKilledInAtItsFirstFile) {
+  fs::create_directories(folder / "killed");
+  write_file(folder / "killed/.tmp-999999999-0-resolved.yaml", "versi");
+  run({mission("a")}, "killed");
+  EXPECT_TRUE(fs::exists(folder / "killed/resolved.yaml"));
+  EXPECT_FALSE(fs::exists(folder / "killed/.tmp-999999999-0-resolved.yaml"));
 }
 
 TEST_F(EngineRun, RefusesWhatIsNotARunFolder) {

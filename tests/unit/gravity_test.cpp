@@ -38,9 +38,8 @@ Atlas mapped(std::vector<Mission> missions) {
   return atlas;
 }
 
-std::set<std::uint32_t> found(const Atlas& atlas, std::vector<std::string>& warnings) {
-  return not_level(atlas, atlas.islands[0], 0.1,
-                   [&](const std::string& text) { warnings.push_back(text); });
+std::set<std::uint32_t> found(Atlas atlas, std::vector<std::string>& warnings) {
+  return not_level(atlas, 0, 0.1, [&](const std::string& text) { warnings.push_back(text); });
 }
 
 }  // namespace
@@ -77,4 +76,29 @@ TEST(NotLevel, LevelMissionsAreQuiet) {
   EXPECT_TRUE(found(mapped({in_frame("a", rolled(2)), in_frame("b", {})}), warnings).empty());
   EXPECT_TRUE(found(mapped({in_frame("a", rolled(50))}), warnings).empty());
   EXPECT_TRUE(warnings.empty());
+}
+
+TEST(NotLevel, AFirstMissionThatIsNotLevelDoesNotTiltTheMap) {
+  // As join_islands leaves it: everything in the frame of `a`, which leans by 12 degrees.
+  Atlas atlas = mapped({in_frame("a", rolled(12)), in_frame("b", {}), in_frame("c", {})});
+  for (std::uint32_t m = 0; m < 3; ++m) atlas = moved(std::move(atlas), m, rolled(12));
+  atlas.islands[0].georeference = GeoReference{61, 25, 100, rolled(12)};
+  atlas.islands[0].positions = {
+      {{1, 4}, rolled(12) * Vec3(8, 0, 0), Mat3(Vec3(4, 2, 1).asDiagonal())}};
+  const SE3 first = atlas.T_map_node({0, 0});
+  std::vector<std::string> warnings;
+  const auto wrong =
+      not_level(atlas, 0, 0.1, [&](const std::string& text) { warnings.push_back(text); });
+  EXPECT_EQ(wrong, std::set<std::uint32_t>{0});
+  EXPECT_LT((atlas.T_map_node({0, 0}).t - first.t).norm(), 1e-9);  // it turned about this node
+  for (std::uint32_t m = 0; m < 3; ++m)
+    for (const SE3& T : *atlas.missions[m].T_map_node)
+      EXPECT_NEAR((T.q * Vec3(Vec3::UnitZ())).z(), 1, 1e-12);
+  // What has a place in the map moved along.
+  EXPECT_NEAR((atlas.islands[0].georeference->T_map_enu.q * Vec3(Vec3::UnitZ())).z(), 1, 1e-12);
+  EXPECT_LT((atlas.islands[0].positions[0].t_map - atlas.T_map_node({1, 4}).t).norm(), 1e-9);
+  // Once it is level, nothing moves any more.
+  const Atlas level = atlas;
+  not_level(atlas, 0, 0.1, [](const std::string&) {});
+  EXPECT_EQ(atlas.T_map_node({2, 7}).t, level.T_map_node({2, 7}).t);
 }

@@ -104,6 +104,8 @@ TEST_F(PipelineFile, RefusesBrokenYaml) {
 TEST_F(PipelineFile, WiringIsCheckedBeforeAnythingRuns) {
   const std::string head = "version: 1\nsteps:\n";
   EXPECT_CONTAINS(mistakes(head + "  - register: gicp\n"), "'register' has no candidates");
+  EXPECT_CONTAINS(mistakes(head + "  - recognize: sc\n  - register: gicp\n    loops: accepted\n"),
+                  "no accepted loops to work on");
   EXPECT_CONTAINS(mistakes(head + "  - recognize: sc\n  - verify: pcm\n"),
                   "'verify' has no registered loops");
   EXPECT_CONTAINS(mistakes(head + "  - recognize: sc\n  - register: g\n  - optimize: c\n"),

@@ -61,3 +61,13 @@ TEST(Codec, RefusesWhatEndsEarly) {
   for (std::size_t n = 0; n < bytes.size(); ++n)
     EXPECT_THROW(decode<std::vector<Candidate>>(bytes.substr(0, n)), Error) << n;
 }
+
+TEST(MemoryStore, ShrinksWhenTheProcessNeedsTheMemory) {
+  MemoryStore store(1000);
+  for (int i = 0; i < 5; ++i)
+    store.get(key(i), [&] { return MemoryStore::Value{std::make_shared<const int>(i), 100}; });
+  store.shrink(250);
+  EXPECT_EQ(store.bytes(), 200u);
+  store.shrink(0);
+  EXPECT_EQ(store.bytes(), 0u);
+}

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <map>
 
+#include "cambium/atlas.hpp"
 #include "cambium/error.hpp"
 
 namespace cambium {
@@ -21,33 +22,69 @@ Digest node_digest(const Node& node) {
   return hasher.digest();
 }
 
-std::vector<Digest> node_digests(const Mission& mission) {
-  std::vector<Digest> out;
-  for (const Node& node : mission.nodes) out.push_back(node_digest(node));
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
+/// Of each mission: the different digests that it has.
+using Contents = std::vector<std::vector<Digest>>;
+
+struct Common {
+  std::size_t a, b, count;  ///< missions, and how many digests both have
+};
+
+/// The first two missions that share more than half of what one of them has. One pass over all
+/// digests in order: comparing each mission with each would grow with their square.
+std::optional<Common> first_copy(Contents& contents) {
+  std::vector<std::pair<Digest, std::size_t>> all;
+  for (std::size_t m = 0; m < contents.size(); ++m) {
+    auto& own = contents[m];
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    for (const Digest& d : own) all.emplace_back(d, m);
+  }
+  std::sort(all.begin(), all.end());
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> common;  // (b, a), a < b
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size() && all[j].first == all[i].first; ++j)
+      ++common[{all[j].second, all[i].second}];
+  for (const auto& [pair, count] : common) {
+    const auto [b, a] = pair;
+    if (count >= 2 && 2 * count > std::min(contents[a].size(), contents[b].size()))
+      return Common{a, b, count};
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse(const Mission& a, const Mission& b, const std::string& what) {
+  throw Error(ErrorCode::data, b.graph_file.string(),
+              fmt::format("the missions '{}' and '{}' are the same recording: {}; leave one of "
+                          "them out ({})",
+                          a.name, b.name, what, a.graph_file.string()));
 }
 
 }  // namespace
 
 void refuse_copies(const std::vector<Mission>& missions) {
-  std::vector<std::vector<Digest>> nodes;
-  for (const Mission& m : missions) nodes.push_back(node_digests(m));
-  for (std::size_t b = 0; b < missions.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) {
-      std::vector<Digest> common;
-      std::set_intersection(nodes[a].begin(), nodes[a].end(), nodes[b].begin(), nodes[b].end(),
-                            std::back_inserter(common));
-      if (common.size() < 2 || 2 * common.size() <= std::min(nodes[a].size(), nodes[b].size()))
-        continue;
-      throw Error(
-          ErrorCode::data, missions[b].graph_file.string(),
-          fmt::format("the missions '{}' and '{}' are the same recording: {} of their nodes "
-                      "have the same stamp and the same pose; leave one of them out ({})",
-                      missions[a].name, missions[b].name, common.size(),
-                      missions[a].graph_file.string()));
-    }
+  Contents contents(missions.size());
+  for (std::size_t m = 0; m < missions.size(); ++m)
+    for (const Node& node : missions[m].nodes) contents[m].push_back(node_digest(node));
+  if (const auto copy = first_copy(contents))
+    refuse(missions[copy->a], missions[copy->b],
+           fmt::format("{} of their nodes have the same stamp and the same pose", copy->count));
+}
+
+void refuse_shared_payloads(const Atlas& atlas, const Engine& engine) {
+  std::vector<std::pair<std::size_t, const PayloadSource*>> sources;
+  for (std::size_t m = 0; m < atlas.missions.size(); ++m)
+    for (const auto& source : (*atlas.payloads)[m])
+      if (source) sources.emplace_back(m, source.get());
+  std::vector<Digest> digests(sources.size());
+  engine.parallel_for(sources.size(),
+                      [&](std::size_t i) { digests[i] = sources[i].second->digest(); });
+  Contents contents(atlas.missions.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) contents[sources[i].first].push_back(digests[i]);
+  if (const auto copy = first_copy(contents))
+    refuse(*atlas.missions[copy->a].mission, *atlas.missions[copy->b].mission,
+           fmt::format("{} of their payloads are the same to the last byte, whatever their pose "
+                       "graphs say",
+                       copy->count));
 }
 
 }  // namespace cambium

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The same recording named twice would be tied to itself, and count as two witnesses.
 #pragma once
 #include <vector>
 
-#include "cambium/mission.hpp"
+#include "engine/engine.hpp"
 
 namespace cambium {
 
-/// Refuses two missions that are one recording: with loops between a mission and its copy, every
-/// error of it would be confirmed. Copies are told by nodes with the same stamp and the same pose
-/// to the last bit: at least two, and more than half of those of the shorter mission. Throws
-/// Error(data) naming both.
+/// Throws Error(data) naming two missions where more than half of the nodes of one have the stamp
+/// and pose of nodes of the other, to the last bit; ids, names and platforms do not matter.
 void refuse_copies(const std::vector<Mission>& missions);
+
+/// The same for what the nodes saw: more than half of the different payloads of one mission are
+/// also in the other, whatever its graph says of them. Reads the payload files.
+void refuse_shared_payloads(const Atlas& atlas, const Engine& engine);
 
 }  // namespace cambium

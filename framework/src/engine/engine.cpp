@@ -2,11 +2,13 @@
 #include "engine/engine.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <mutex>
 #include <thread>
 
+#include "engine/memory_use.hpp"
 #include "engine/parallel.hpp"
 #include "engine/program.hpp"
 
@@ -26,6 +28,11 @@ class ItemContext final : public Context {
   void parallel_for(std::size_t count,
                     const std::function<void(std::size_t)>& body) const override {
     engine_.parallel_for(count, body);
+  }
+  void expect(std::size_t parts) const override { engine_.progress().expect(parts); }
+  void advance() const override {
+    engine_.progress().advance();
+    engine_.within_memory(engine_.progress().step());
   }
 
  private:
@@ -61,6 +68,25 @@ Engine::Engine(const EngineOptions& options, Progress& progress)
 Engine::~Engine() {
   std::error_code ignored;
   std::filesystem::remove_all(scratch_, ignored);
+}
+
+bool Engine::within_memory(const std::string& what) const {
+  std::size_t used = resident_bytes();
+  while (used > memory() && store_->bytes() > 0) {
+    store_->shrink(store_->bytes() / 2);
+#if defined(__GLIBC__)
+    ::malloc_trim(0);  // freed memory stays with the process otherwise
+#endif
+    used = resident_bytes();
+  }
+  if (used <= memory()) return true;
+  if (!warned_of_memory_.exchange(true))
+    progress_.log(LogLevel::warning,
+                  fmt::format("'{}' takes {} besides payloads, more than --memory {}: payloads are "
+                              "not kept and work items run one at a time; allow more memory, or "
+                              "fuse fewer missions at once",
+                              what, shown_bytes(used), shown_bytes(memory())));
+  return false;
 }
 
 void Engine::parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) const {

@@ -19,7 +19,7 @@ namespace cambium {
 
 struct EngineOptions {
   int threads = 0;                  ///< 0 = all cores
-  std::size_t memory = 4ull << 30;  ///< budget for payloads [bytes]
+  std::size_t memory = 4ull << 30;  ///< budget for the whole process [bytes]
   std::optional<std::filesystem::path> cache;
   const std::atomic<bool>* cancelled = nullptr;  ///< set by a signal handler
 };
@@ -43,6 +43,11 @@ class Engine {
 
   /// Of the program itself: another build never meets this one's results in the cache.
   const Digest& build() const { return build_; }
+
+  /// Whether the process is within its memory budget. What the store keeps for later goes first;
+  /// where that is not enough, a warning names `what` runs, once, and the answer is no.
+  bool within_memory(const std::string& what) const;
+  std::size_t memory() const { return store_->budget(); }
 
   void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) const;
 
@@ -75,6 +80,7 @@ class Engine {
   std::shared_ptr<MemoryStore> store_;
   std::filesystem::path scratch_;
   Digest build_;
+  mutable std::atomic<bool> warned_of_memory_{false};
 };
 
 }  // namespace cambium

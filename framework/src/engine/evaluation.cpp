@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 std::vector<std::string> chosen(const EvaluationOptions& options, const Registry& registry) {
   if (!options.evaluators.empty()) return options.evaluators;
   std::vector<std::string> names;
-  for (const auto& [key, component] : registry.all())
-    if (key.first == Kind::evaluator) names.push_back(key.second);
+  for (const auto& [key, component] : registry.all())  // but those that need to be told something
+    if (key.first == Kind::evaluator && component.create()->check_params().empty())
+      names.push_back(key.second);
   return names;
 }
 
@@ -41,10 +42,7 @@ ResolvedPipeline prepare_evaluation(const EvaluationOptions& options, const Regi
   if (!options.truth.empty() && !fs::is_directory(options.truth))
     throw Error(ErrorCode::config, options.truth.string(),
                 "is no folder; expected one with <mission>/ground_truth.tum or <mission>.tum");
-  if (!is_run(options.run))
-    throw Error(ErrorCode::config, options.run.string(),
-                "holds no finished run (report.json and resolved.yaml); name the folder that "
-                "'cambium run --out' wrote");
+  Pipeline pipeline = filters_of_run(options.run);
   const auto names = chosen(options, registry);
   std::string text = "version: 1\nsteps:\n";
   for (const std::string& name : names) {
@@ -56,9 +54,6 @@ ResolvedPipeline prepare_evaluation(const EvaluationOptions& options, const Regi
   std::vector<std::string> overrides;
   for (const auto& o : options.overrides) overrides.push_back(of_step(o, names));
 
-  Pipeline pipeline = load_pipeline(options.run / "resolved.yaml");
-  std::erase_if(pipeline.steps,
-                [](const StepSpec& s) { return s.verb->kind != Kind::payload_filter; });
   for (StepSpec& step : parse_pipeline(text, "command line", overrides).steps)
     pipeline.steps.push_back(std::move(step));
   return resolve(pipeline, registry);

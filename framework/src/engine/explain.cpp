@@ -44,6 +44,7 @@ std::string Explainer::explain(std::size_t index, const StepRecord& step) const 
   std::string changed;
   for (const auto& [part, value] : step.key) {
     const std::string before = steps[index]["key"].value(part, "");
+    if (part == "files" && !changed.empty()) continue;  // it also has the parts before it
     if (before != value) changed += (changed.empty() ? "" : "; ") + difference(part, before, value);
   }
   if (changed.empty()) changed = "nothing changed, but the cache did not hold the result";

@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "model/own_frame.hpp"
+
 namespace cambium {
 namespace {
 
@@ -27,7 +29,7 @@ class Builder {
 
   void add_edges(std::uint32_t m, const std::function<void(const std::string&)>& warn) {
     const Mission& mission = *atlas_.missions[m].mission;
-    const bool own_frame = m == island_.missions.front();
+    const bool own_frame = gives_map_frame(atlas_.missions[m], island_, atlas_);
     std::size_t unused = 0;
     for (const Edge& e : mission.edges) {
       const std::size_t head = index(m, e.head);
@@ -46,9 +48,8 @@ class Builder {
     if (unused > 0)
       warn(
           fmt::format("{}: {} priors are not used: they hold in the mission's own frame, and the "
-                      "frame of its island is that of '{}'",
-                      mission.graph_file.string(), unused,
-                      atlas_.missions[island_.missions.front()].mission->name));
+                      "frame of its island is {}",
+                      mission.graph_file.string(), unused, whose_frame()));
   }
 
   void add_attitudes(std::uint32_t m, double sigma) {
@@ -93,6 +94,13 @@ class Builder {
   IslandGraph out;
 
  private:
+  std::string whose_frame() const {
+    const MissionState& first = atlas_.missions[island_.missions.front()];
+    return gives_map_frame(first, island_, atlas_)
+               ? fmt::format("that of '{}'", first.mission->name)
+               : "turned to the vertical that most missions share";
+  }
+
   // Positions along a straight path leave the roll about it free.
   void keep_level(std::uint32_t m) {
     const Vec3 up = (*atlas_.missions[m].T_map_node)[0].q.conjugate() * Vec3::UnitZ();

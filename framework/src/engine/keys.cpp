@@ -45,4 +45,13 @@ Digest atlas_key(const Atlas& atlas) {
   return hasher.digest();
 }
 
+Digest stages_key(const Atlas& atlas) {
+  Hasher hasher;
+  for (const Stage& stage : atlas.stages) {
+    hasher.add(stage.step).add(encode(stage.islands));
+    for (const auto& poses : stage.T_map_node) hasher.add(poses_key(*poses));
+  }
+  return hasher.digest();
+}
+
 }  // namespace cambium

@@ -14,4 +14,7 @@ std::vector<std::pair<std::string, Digest>> atlas_key_parts(const Atlas& atlas);
 
 Digest atlas_key(const Atlas& atlas);  ///< of all parts together
 
+/// Of what earlier optimisations left: only an export can look back at it.
+Digest stages_key(const Atlas& atlas);
+
 }  // namespace cambium

@@ -44,13 +44,18 @@ std::shared_ptr<const void> MemoryStore::get(const Digest& key,
   recent_.push_front(key);
   it->second = {value, recent_.begin()};
   bytes_ += value.bytes;
-  evict();
+  // The newest entry stays even when it alone is over the budget: its user holds it anyway.
+  evict(budget_, 1);
   return value.data;
 }
 
-void MemoryStore::evict() {
-  // The newest entry stays even when it alone is over the budget: its user holds it anyway.
-  while (bytes_ > budget_ && recent_.size() > 1) {
+void MemoryStore::shrink(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  evict(bytes, 0);
+}
+
+void MemoryStore::evict(std::size_t limit, std::size_t keep) {
+  while (bytes_ > limit && recent_.size() > keep) {
     const auto it = entries_.find(recent_.back());
     bytes_ -= it->second.value.bytes;
     entries_.erase(it);

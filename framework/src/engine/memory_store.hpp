@@ -25,6 +25,9 @@ class MemoryStore {
   /// time both make it: waiting for each other inside a task pool can deadlock.
   std::shared_ptr<const void> get(const Digest& key, const std::function<Value()>& make);
 
+  /// Forgets what was not used lately until at most so many bytes are kept.
+  void shrink(std::size_t bytes);
+
   std::size_t bytes() const;
   std::size_t budget() const { return budget_; }
 
@@ -33,7 +36,7 @@ class MemoryStore {
     Value value;
     std::list<Digest>::iterator used;
   };
-  void evict();
+  void evict(std::size_t limit, std::size_t keep);
 
   const std::size_t budget_;
   mutable std::mutex mutex_;

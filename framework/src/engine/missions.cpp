@@ -8,6 +8,7 @@
 
 #include "cambium/dialect.hpp"
 #include "engine/copies.hpp"
+#include "engine/memory_use.hpp"
 
 namespace cambium {
 namespace {
@@ -58,20 +59,6 @@ std::optional<Configured> find_reader(const Source& source, const Registry& regi
   return std::nullopt;
 }
 
-// Ids of the fused graph: 10 000 per mission, grown in steps of 10 000 when a mission needs more.
-// Ids that do not start near zero (time stamps, GTSAM symbols) are moved to the front of the range.
-void assign_offsets(std::vector<MissionState>& missions) {
-  constexpr NodeId stride = 10000;
-  NodeId next = 0;
-  for (auto& m : missions) {
-    const auto& nodes = m.mission->nodes;
-    const NodeId low = nodes.front().id, high = nodes.back().id;
-    const NodeId shift = low >= 0 && high < 100 * stride ? 0 : low;
-    m.id_offset = next - shift;
-    next += ((high - shift) / stride + 1) * stride;
-  }
-}
-
 // What the engine relies on; a reader that breaks it is named before anything goes wrong.
 void check_mission(const Mission& m, const Source& source) {
   const auto refuse = [&](const std::string& what) {
@@ -102,11 +89,14 @@ void check_names(const std::vector<Mission>& missions) {
   }
 }
 
-MissionState initial_state(std::shared_ptr<const Mission> mission, std::uint32_t island) {
-  std::vector<SE3> poses;
-  for (const Node& n : mission->nodes) poses.push_back(n.T_mission_node);
-  return {std::move(mission), std::make_shared<const std::vector<SE3>>(std::move(poses)), island,
-          0};
+// Pose graphs are in memory for the whole run; payloads come and go.
+void check_memory(const Engine& engine, std::size_t missions) {
+  const std::size_t used = resident_bytes();
+  if (used <= engine.memory()) return;
+  throw Error(ErrorCode::config, "--memory",
+              fmt::format("{} missions take {} before the first step, more than the {} allowed; "
+                          "allow at least twice as much, or fuse fewer missions at once",
+                          missions, shown_bytes(used), shown_bytes(engine.memory())));
 }
 
 Atlas make_atlas(std::vector<Mission> missions, const Engine& engine) {
@@ -125,6 +115,25 @@ Atlas make_atlas(std::vector<Mission> missions, const Engine& engine) {
 }
 
 }  // namespace
+
+MissionState initial_state(std::shared_ptr<const Mission> mission, std::uint32_t island) {
+  std::vector<SE3> poses;
+  for (const Node& n : mission->nodes) poses.push_back(n.T_mission_node);
+  return {std::move(mission), std::make_shared<const std::vector<SE3>>(std::move(poses)), island,
+          0};
+}
+
+void assign_offsets(std::vector<MissionState>& missions) {
+  constexpr NodeId stride = 10000;
+  NodeId next = 0;
+  for (auto& m : missions) {
+    const auto& nodes = m.mission->nodes;
+    const NodeId low = nodes.front().id, high = nodes.back().id;
+    const NodeId shift = low >= 0 && high < 100 * stride ? 0 : low;
+    m.id_offset = next - shift;
+    next += ((high - shift) / stride + 1) * stride;
+  }
+}
 
 Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const Engine& engine) {
   Diagnostics diagnostics;
@@ -164,7 +173,9 @@ Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const En
   engine.progress().end(fmt::format("{} missions, {} nodes", missions.size(), nodes));
   for (const auto& m : missions)
     for (const auto& w : m.warnings) engine.progress().log(LogLevel::warning, w);
-  return make_atlas(std::move(missions), engine);
+  Atlas atlas = make_atlas(std::move(missions), engine);
+  check_memory(engine, atlas.missions.size());
+  return atlas;
 }
 
 }  // namespace cambium

@@ -6,6 +6,7 @@
 #include "cambium/error.hpp"
 #include "engine/missions.hpp"
 #include "engine/run_folder.hpp"
+#include "engine/run_step.hpp"
 
 namespace cambium {
 
@@ -15,18 +16,41 @@ bool is_run(const fs::path& folder) {
   return fs::exists(folder / "report.json") && fs::exists(folder / "resolved.yaml");
 }
 
-Pipeline missions_of_run(const fs::path& run) {
+namespace {
+
+Pipeline pipeline_of_run(const fs::path& run) {
   if (!is_run(run))
     throw Error(ErrorCode::config, run.string(),
                 "holds no finished run (report.json and resolved.yaml); name the folder that "
                 "'cambium run --out' wrote");
-  Pipeline pipeline = load_pipeline(run / "resolved.yaml");
+  return load_pipeline(run / "resolved.yaml");
+}
+
+}  // namespace
+
+Pipeline filters_of_run(const fs::path& run) {
+  Pipeline pipeline = pipeline_of_run(run);
+  std::erase_if(pipeline.steps,
+                [](const StepSpec& s) { return s.verb->kind != Kind::payload_filter; });
+  return pipeline;
+}
+
+Pipeline missions_of_run(const fs::path& run) {
+  Pipeline pipeline = pipeline_of_run(run);
   pipeline.steps.clear();
   return pipeline;
 }
 
 Atlas open_run(const fs::path& run, const Registry& registry, const Engine& engine) {
   return read_run(run, read_missions(missions_of_run(run), registry, engine));
+}
+
+Known reopen_run(const fs::path& run, const Registry& registry, const Engine& engine) {
+  const ResolvedPipeline pipeline = resolve(filters_of_run(run), registry);
+  Known known = known_missions(pipeline, registry, engine);
+  known.atlas = read_run(run, std::move(known.atlas));
+  for (const Step& step : pipeline.steps) run_step(step, known, engine, pipeline.spec.seed, run);
+  return known;
 }
 
 std::vector<MissionSpec> without_runs(const std::vector<MissionSpec>& missions) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -73,7 +74,8 @@ void Progress::expect(std::size_t items) {
 
 void Progress::advance() {
   const std::lock_guard lock(mutex_);
-  ++done_;
+  // An item may have had a row of parts of its own, all of them done.
+  done_ = std::min(done_ + 1, total_);
   draw();
 }
 
@@ -88,12 +90,18 @@ void Progress::end(const std::string& summary) {
     print(fmt::format("{:<36} {:>6.2f} s  {}\n", step_, seconds_since(begin_), summary));
 }
 
+std::string Progress::step() const {
+  const std::lock_guard lock(mutex_);
+  return step_;
+}
+
 std::vector<std::string> Progress::warnings() const {
   const std::lock_guard lock(mutex_);
   return warnings_;
 }
 
 void Progress::draw() {
+  if (step_.empty()) return;  // a command that is no pipeline has no steps to tell of
   const auto now = std::chrono::steady_clock::now();
   const double pause = terminal_ ? 0.1 : 10.0;  // plain logs get a line every ten seconds
   if (std::chrono::duration<double>(now - drawn_).count() < pause) return;

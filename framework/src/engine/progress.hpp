@@ -19,8 +19,9 @@ class Progress {
   void log(LogLevel level, std::string_view message);
   void begin(const std::string& step);  ///< the clock of the step starts
   void expect(std::size_t items);       ///< a row of work items begins; a step may have several
-  void advance();                       ///< one item more; thread-safe
+  void advance();                       ///< one item more, up to those expected; thread-safe
   void end(const std::string& summary);
+  std::string step() const;             ///< that began last
   std::vector<std::string> warnings() const;  ///< all so far, for the report
 
  private:

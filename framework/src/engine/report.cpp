@@ -94,7 +94,7 @@ Json loop_json(const Atlas& atlas, const Loop& l) {
            {"reason", l.reason},
            {"scores", scores_json(l.scores)}};
   const auto& T = l.T_tail_head;
-  if (!l.registered_by.empty() && l.decided_by != l.registered_by)  // the registration converged
+  if (has_transform(l))
     out["T_tail_head"] = {T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w()};
   if (l.state != LoopState::accepted) return out;
   out["weight"] = l.weight;
@@ -104,6 +104,10 @@ Json loop_json(const Atlas& atlas, const Loop& l) {
 }
 
 }  // namespace
+
+bool has_transform(const Loop& loop) {
+  return !loop.registered_by.empty() && loop.decided_by != loop.registered_by;
+}
 
 Json metric_json(const Metric& m) {
   return {{"name", m.name}, {"unit", m.unit}, {"value", m.value}, {"better", to_string(m.better)}};

@@ -16,6 +16,9 @@ Metric read_metric(const Json& json);  ///< throws nlohmann::json::exception
 Json report_json(const Known& known, const std::vector<StepRecord>& steps,
                  const std::vector<std::string>& warnings);
 
+/// Whether T_tail_head is that of a registration that converged.
+bool has_transform(const Loop& loop);
+
 /// One line per candidate that was ever proposed: who proposed it, scores, verdict and reason,
 /// final residual.
 std::string ledger_jsonl(const Atlas& atlas);

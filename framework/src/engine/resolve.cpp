@@ -17,7 +17,17 @@ std::vector<std::string> names_of(const Registry& registry, Kind kind) {
   return names;
 }
 
-std::optional<Step> resolve_step(const StepSpec& spec, const Registry& registry,
+// resolved.yaml lies elsewhere than what the user wrote, and must mean the same files: their names
+// as they were bound.
+void make_files_absolute(Yaml& params, const Configured& bound) {
+  const auto canonical = nlohmann::json::parse(bound.params);
+  for (Yaml::Item& item : params.map) {
+    const auto value = canonical.find(item.key.scalar);
+    if (value != canonical.end() && value->is_string()) item.value.scalar = value->get<std::string>();
+  }
+}
+
+std::optional<Step> resolve_step(StepSpec& spec, const Registry& registry,
                                  Diagnostics& diagnostics) {
   Step step;
   step.verb = spec.verb;
@@ -29,10 +39,12 @@ std::optional<Step> resolve_step(const StepSpec& spec, const Registry& registry,
   if (!configured) return std::nullopt;
   step.registered = registry.find(spec.verb->kind, spec.plugin);
   step.configured = *configured;
-  for (const auto& [platform, params] : spec.platform_params) {
+  for (auto& [platform, params] : spec.platform_params) {
     auto other = configure(registry, spec.verb->kind, spec.plugin, spec.plugin_where,
                            merged(spec.params, params), diagnostics);
-    if (other) step.by_platform[platform] = *other;
+    if (!other) continue;
+    make_files_absolute(params, *other);
+    step.by_platform[platform] = *other;
   }
   return step;
 }
@@ -60,16 +72,25 @@ std::optional<Configured> configure(const Registry& registry, Kind kind, const s
   }
   const std::shared_ptr<Component> component = registered->create();
   bind_params(*component, params, diagnostics);
-  const std::string canonical = canonical_params(*component);
-  const Digest key =
-      Hasher().add(registered->build).add(to_string(kind)).add(name).add(canonical).digest();
-  return Configured{component, canonical, key};
+  const Digest key = Hasher()
+                         .add(registered->build)
+                         .add(to_string(kind))
+                         .add(name)
+                         .add(identifying_params(*component))
+                         .digest();
+  return Configured{component, canonical_params(*component), key};
 }
 
 ResolvedPipeline resolve(const Pipeline& pipeline, const Registry& registry) {
   Diagnostics diagnostics;
   ResolvedPipeline out{pipeline, {}};
-  for (const auto& spec : pipeline.steps)
+  for (MissionSpec& m : out.spec.missions) {
+    if (m.reader.empty() || m.params.is_null()) continue;
+    if (const auto reader = configure(registry, Kind::mission_reader, m.reader, m.where, m.params,
+                                      diagnostics))
+      make_files_absolute(m.params, *reader);
+  }
+  for (auto& spec : out.spec.steps)
     if (auto step = resolve_step(spec, registry, diagnostics))
       out.steps.push_back(std::move(*step));
   check_wiring(pipeline, diagnostics);

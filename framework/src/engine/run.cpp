@@ -9,9 +9,11 @@
 #include "cambium/files.hpp"
 #include "cambium/fused.hpp"
 #include "engine/explain.hpp"
+#include "engine/memory_use.hpp"
 #include "engine/open_run.hpp"
 #include "engine/output_folder.hpp"
 #include "engine/run_step.hpp"
+#include "report/page.hpp"
 
 namespace cambium {
 namespace {
@@ -29,6 +31,16 @@ void warn_of_islands(const Atlas& atlas, Progress& progress) {
     text += "}";
   }
   progress.log(LogLevel::warning, text + "; each has a map frame of its own");
+}
+
+// Between two looks at memory a step may take more than it leaves behind.
+void warn_of_peak(const Engine& engine) {
+  if (peak_bytes() <= engine.memory()) return;
+  engine.progress().log(
+      LogLevel::warning,
+      fmt::format("the run took {} at its peak, more than --memory {}; allow as much, use fewer "
+                  "threads, or fuse fewer missions at once",
+                  shown_bytes(peak_bytes()), shown_bytes(engine.memory())));
 }
 
 void write_maps(const Atlas& atlas, const fs::path& out) {
@@ -59,7 +71,8 @@ RunResult run_pipeline(const RunOptions& options, const ResolvedPipeline& pipeli
   open_output_folder(options.out, "resolved.yaml", "a run");
   const Explainer explainer(options.out / "report.json");
   Progress& progress = engine.progress();
-  write_file(options.out / "resolved.yaml", to_yaml(pipeline));
+  const std::string resolved = to_yaml(pipeline);
+  write_file(options.out / "resolved.yaml", resolved);
 
   RunResult result;
   Known& known = result.known;
@@ -71,9 +84,12 @@ RunResult run_pipeline(const RunOptions& options, const ResolvedPipeline& pipeli
   }
   known.atlas.payloads = known.streams.at("main");
   warn_of_islands(known.atlas, progress);
+  warn_of_peak(engine);
   write_maps(known.atlas, options.out);
   write_file(options.out / "ledger.jsonl", ledger_jsonl(known.atlas));
   result.report = report_json(known, result.steps, progress.warnings());
+  result.report["memory"] = {{"budget", engine.memory()}, {"peak", peak_bytes()}};
+  write_file(options.out / "report.html", report_page(known.atlas, result.report, resolved));
   write_file(options.out / "report.json", result.report.dump(1) + "\n");
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "engine/copies.hpp"
 #include "engine/keys.hpp"
 #include "engine/missions.hpp"
 #include "pipeline/params.hpp"
@@ -17,6 +18,7 @@ KeyParts key_parts(const Step& step, const Known& known, const Engine& engine, s
   KeyParts parts = {{"program", engine.build().hex()},
                     {"plugin", step.registered->build.hex()},
                     {"params", step.configured.params},
+                    {"files", step.configured.key.hex()},  // of those that parameters name
                     {"step", canonical_params(keys)},
                     {"seed", std::to_string(seed)}};
   for (const auto& [id, c] : step.by_platform)
@@ -56,6 +58,7 @@ Known known_missions(const ResolvedPipeline& pipeline, const Registry& registry,
                      const Engine& engine) {
   Known known;
   known.atlas = read_missions(pipeline.spec, registry, engine);
+  refuse_shared_payloads(known.atlas, engine);
   known.streams["main"] = known.atlas.payloads;
   return known;
 }

@@ -37,7 +37,11 @@ Known run_export(Known known, const StepScope& scope) {
   const Configured& c = scope.step.configured;
   const std::string& label = scope.step.keys.label;
   const fs::path folder = scope.out / (label.empty() ? scope.step.plugin : label);
-  const Digest input = Hasher().add(atlas_key(known.atlas)).add("export").digest();
+  const Digest input = Hasher()
+                           .add(atlas_key(known.atlas))
+                           .add(stages_key(known.atlas))
+                           .add("export")
+                           .digest();
   Written written;
   scope.run_items(1, [&](std::size_t) {
     Making making;

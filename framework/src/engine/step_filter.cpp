@@ -21,7 +21,12 @@ class FilteredSource final : public PayloadSource {
 
   Payload load() const override {
     const auto context = engine_.context(key_, seed_);
-    return filter_.as<PayloadFilter>().apply({*atlas_, node_.mission}, node_.node, *context);
+    Payload out = filter_.as<PayloadFilter>().apply({*atlas_, node_.mission}, node_.node, *context);
+    // Filters change clouds and trees; what else the node saw passes through.
+    const Payload in = atlas_->payload(node_);
+    if (!out.images) out.images = in.images;
+    if (!out.imu) out.imu = in.imu;
+    return out;
   }
   Digest digest() const override { return key_; }
   std::string where() const override {

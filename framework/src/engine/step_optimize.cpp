@@ -1,59 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <numbers>
-
-#include "engine/frames.hpp"
-#include "engine/graph.hpp"
-#include "engine/gravity.hpp"
-#include "engine/keys.hpp"
 #include "engine/marginals.hpp"
-#include "engine/steps.hpp"
+#include "engine/relaxation.hpp"
 
 namespace cambium {
 namespace {
 
-// Lidar-inertial odometry is level to a degree; a frame of another kind is off by a right angle.
-constexpr double max_tilt = 5 * std::numbers::pi / 180;
-
-Digest graph_key(const PoseGraph& g) {
-  Encoder e;
-  e(g.T_map_node, g.ids);
-  for (const bool fixed : g.fixed) e(fixed);
-  for (const auto& f : g.relative)
-    e(std::uint64_t(f.tail), std::uint64_t(f.head), f.T_tail_head, f.information, f.robust);
-  for (const auto& f : g.attitude) e(std::uint64_t(f.node), f.up_node, f.sigma);
-  for (const auto& f : g.priors) e(std::uint64_t(f.node), f.T_map_node, f.information);
-  for (const auto& f : g.positions) e(std::uint64_t(f.node), f.t_map, f.information, f.robust);
-  for (const std::size_t node : g.marginals) e(std::uint64_t(node));
-  return digest_bytes(e.bytes);
-}
-
-void check(const Solution& s, const PoseGraph& g, const Step& step) {
-  bool sound = s.T_map_node.size() == g.T_map_node.size() && s.weight.size() == g.relative.size();
-  for (const SE3& T : s.T_map_node) sound = sound && T.finite();
-  if (!sound)
-    throw Error(
-        ErrorCode::numeric, step.registered->library,
-        fmt::format("'{}' returned {} poses and {} weights (finite: {}) for {} nodes and {} "
-                    "relative factors",
-                    step.plugin, s.T_map_node.size(), s.weight.size(), sound, g.T_map_node.size(),
-                    g.relative.size()));
-}
-
-void apply(const Solution& s, const IslandGraph& island, Atlas& atlas) {
-  std::map<std::uint32_t, std::vector<SE3>> poses;
-  for (std::size_t i = 0; i < island.nodes.size(); ++i)
-    poses[island.nodes[i].mission].push_back(s.T_map_node[i]);
-  for (auto& [m, p] : poses)
-    atlas.missions[m].T_map_node = std::make_shared<const std::vector<SE3>>(std::move(p));
-  const auto& relative = island.graph.relative;
-  const std::size_t first_loop = relative.size() - island.loops.size();
-  for (std::size_t k = 0; k < island.loops.size(); ++k) {
-    const RelativeFactor& f = relative[first_loop + k];
-    Loop& loop = atlas.loops[island.loops[k]];
-    loop.weight = s.weight[first_loop + k];
-    loop.residual = residual(f.T_tail_head, s.T_map_node[f.tail], s.T_map_node[f.head]);
+void keep_stage(const std::string& step, Atlas& atlas) {
+  Stage& stage = atlas.stages.emplace_back();
+  stage.step = step;
+  for (const MissionState& state : atlas.missions) {
+    stage.T_map_node.push_back(state.T_map_node);
+    stage.islands.push_back(state.island);
   }
 }
 
@@ -61,27 +20,16 @@ void apply(const Solution& s, const IslandGraph& island, Atlas& atlas) {
 
 Known run_optimize(Known known, const StepScope& scope) {
   Atlas& atlas = known.atlas;
-  atlas = join_islands(std::move(atlas));
   const auto warn = [&](const std::string& text) {
     scope.engine.progress().log(LogLevel::warning, text);
   };
-  const double sigma = scope.step.keys.attitude_sigma * std::numbers::pi / 180;
-  std::vector<IslandGraph> graphs;
-  for (std::uint32_t i = 0; i < atlas.islands.size(); ++i) {
-    const auto tilted = not_level(atlas, atlas.islands[i], max_tilt, warn);
-    graphs.push_back(build_graph(atlas, i, sigma, tilted, warn));
-  }
+  auto graphs = relaxation_graphs(atlas, scope.step.keys, warn);
   ask_for_marginals(atlas, scope.step.keys.marginals, graphs);
 
   std::vector<Solution> solutions(graphs.size());
-  const Configured& c = scope.step.configured;
   scope.run_items(graphs.size(), [&](std::size_t i) {
     Making making;
-    const PoseGraph& g = graphs[i].graph;
-    solutions[i] = scope.cached<Solution>(c, graph_key(g), making, [&](const Context& context) {
-      return c.as<Solver>().solve(g, context);
-    });
-    check(solutions[i], g, scope.step);
+    solutions[i] = relax(graphs[i], scope, making);
     return making;
   });
 
@@ -97,8 +45,10 @@ Known run_optimize(Known known, const StepScope& scope) {
       scope.record.figures.push_back(std::move(figure));
     if (!solutions[i].converged)
       warn(fmt::format("island {}: the solver did not converge: {}", i, solutions[i].message));
-    apply(solutions[i], graphs[i], atlas);
+    place(solutions[i], graphs[i], atlas);
   }
+  keep_stage(scope.step.plugin, atlas);
+  known.relaxed_by = &scope.step;
   scope.record.figures.emplace_back("cost.before", before);
   scope.record.figures.emplace_back("cost.after", after);
   scope.record.summary =

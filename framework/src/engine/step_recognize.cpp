@@ -6,7 +6,9 @@
 
 #include "cambium/path.hpp"
 #include "engine/keys.hpp"
-#include "engine/steps.hpp"
+#include "engine/mission_pairs.hpp"
+#include "engine/pair_maps.hpp"
+#include "engine/rounded.hpp"
 
 namespace cambium {
 namespace {
@@ -15,37 +17,6 @@ struct Described {
   Fingerprints fingerprints;
   Digest digest;
 };
-
-struct MissionPair {
-  std::uint32_t query, reference;
-  std::vector<std::size_t> slices = {0};  // of the candidates, those to go on with
-  std::size_t of = 1;
-};
-
-std::vector<MissionPair> mission_pairs(std::size_t count, const std::string& which) {
-  std::vector<MissionPair> pairs;
-  for (std::uint32_t query = 0; query < count; ++query)
-    for (std::uint32_t reference = 0; reference <= query; ++reference)
-      if (which == "all" || (query == reference) == (which == "within_missions"))
-        pairs.push_back({query, reference, {0}, 1});
-  return pairs;
-}
-
-// Of the pairs those that the share names, each with its slices.
-std::vector<MissionPair> shared(std::vector<MissionPair> pairs, const Share& share,
-                                const Atlas& atlas) {
-  const auto name = [&](std::uint32_t m) { return atlas.missions[m].mission->name; };
-  for (MissionPair& pair : pairs) {
-    pair.slices.clear();
-    for (const SharePart& part : share.parts) {
-      if (part.query != name(pair.query) || part.reference != name(pair.reference)) continue;
-      pair.slices.push_back(part.slice);
-      pair.of = part.slices;
-    }
-  }
-  std::erase_if(pairs, [](const MissionPair& pair) { return pair.slices.empty(); });
-  return pairs;
-}
 
 Digest describe_input(const Atlas& atlas, std::uint32_t m, bool poses) {
   Hasher hasher;
@@ -56,29 +27,19 @@ Digest describe_input(const Atlas& atlas, std::uint32_t m, bool poses) {
   return hasher.digest();
 }
 
-// The missions that occur in the pairs.
-std::vector<Described> describe(const Atlas& atlas, const std::vector<MissionPair>& pairs,
-                                const StepScope& scope) {
-  std::set<std::size_t> needed;
-  for (const MissionPair& pair : pairs) needed.insert({pair.query, pair.reference});
-  const std::vector<std::size_t> work(needed.begin(), needed.end());
-  std::vector<Described> out(atlas.missions.size());
-  scope.run_items(work.size(), [&](std::size_t i) {
-    const std::size_t m = work[i];
-    const MissionView view{atlas, std::uint32_t(m)};
-    const Configured& c = scope.step.for_platform(view.mission().platform_id);
-    const auto& recognizer = c.as<PlaceRecognizer>();
-    Making making;
-    out[m].fingerprints = scope.cached<Fingerprints>(
-        c, describe_input(atlas, std::uint32_t(m), recognizer.uses_poses()), making,
-        [&](const Context& context) { return recognizer.describe(view, context); });
-    out[m].digest = digest_bytes(encode(out[m].fingerprints));
-    return making;
-  });
+Described describe(const Atlas& atlas, std::uint32_t m, const StepScope& scope, Making& making) {
+  const MissionView view{atlas, m};
+  const Configured& c = scope.step.for_platform(view.mission().platform_id);
+  const auto& recognizer = c.as<PlaceRecognizer>();
+  Described out;
+  out.fingerprints = scope.cached<Fingerprints>(
+      c, describe_input(atlas, m, recognizer.uses_poses()), making,
+      [&](const Context& context) { return recognizer.describe(view, context); });
+  out.digest = digest_bytes(encode(out.fingerprints));
   return out;
 }
 
-std::vector<Candidate> match(const Atlas& atlas, const MissionPair& pair,
+std::vector<Candidate> match(const Atlas& atlas, const PairOfMissions& pair,
                              const std::vector<Described>& described, const StepScope& scope,
                              Making& making) {
   const Mission& query = *atlas.missions[pair.query].mission;
@@ -101,12 +62,14 @@ std::vector<Candidate> match(const Atlas& atlas, const MissionPair& pair,
   });
 }
 
-Loop to_loop(const Candidate& c, const MissionPair& pair, const std::string& plugin) {
+Loop to_loop(const Candidate& c, const PairOfMissions& pair, const std::string& plugin,
+             bool from_map) {
   Loop loop;
   loop.tail = {pair.reference, std::uint32_t(c.reference)};
   loop.head = {pair.query, std::uint32_t(c.query)};
   loop.has_guess = c.T_reference_query.has_value();
-  if (loop.has_guess) loop.T_tail_head = *c.T_reference_query;
+  if (loop.has_guess)
+    loop.T_tail_head = from_map ? rounded(*c.T_reference_query) : *c.T_reference_query;
   loop.scores = {{plugin, c.score}};
   loop.proposed_by = plugin;
   if (loop.head < loop.tail) {  // a recogniser may propose an earlier node as the query
@@ -116,7 +79,7 @@ Loop to_loop(const Candidate& c, const MissionPair& pair, const std::string& plu
   return loop;
 }
 
-void check(const Candidate& c, const MissionPair& pair, const Atlas& atlas, const Step& step) {
+void check(const Candidate& c, const PairOfMissions& pair, const Atlas& atlas, const Step& step) {
   const std::size_t queries = atlas.missions[pair.query].mission->nodes.size();
   const std::size_t references = atlas.missions[pair.reference].mission->nodes.size();
   const bool self = pair.query == pair.reference && c.query == c.reference;
@@ -151,29 +114,81 @@ std::size_t add_loops(std::vector<Loop>& loops, std::vector<Loop> found) {
   return added;
 }
 
+using Found = std::vector<std::vector<Candidate>>;  // for each pair
+
+/// The candidates of the pairs that have no `own` map, from the atlas.
+void search(const Atlas& atlas, const std::vector<MissionPair>& pairs,
+            const std::vector<std::shared_ptr<const Atlas>>& own, const StepScope& scope,
+            Found& found) {
+  std::vector<std::size_t> work;
+  std::set<std::uint32_t> occurring;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (own[i]) continue;
+    work.push_back(i);
+    occurring.insert({pairs[i].missions.query, pairs[i].missions.reference});
+  }
+  const std::vector<std::uint32_t> missions(occurring.begin(), occurring.end());
+  std::vector<Described> described(atlas.missions.size());
+  scope.run_items(missions.size(), [&](std::size_t i) {
+    Making making;
+    described[missions[i]] = describe(atlas, missions[i], scope, making);
+    return making;
+  });
+  scope.run_items(work.size(), [&](std::size_t k) {
+    Making making;
+    found[work[k]] = match(atlas, pairs[work[k]].missions, described, scope, making);
+    return making;
+  });
+}
+
+/// Those of the others, each from its own map; descriptions that use poses serve one pair only.
+void search_alone(const std::vector<std::shared_ptr<const Atlas>>& own, const StepScope& scope,
+                  Found& found) {
+  std::vector<std::size_t> work;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i]) work.push_back(i);
+  scope.run_items(work.size(), [&](std::size_t k) {
+    const Atlas& atlas = *own[work[k]];
+    std::vector<Making> describing(atlas.missions.size());
+    std::vector<Described> described;
+    for (std::uint32_t m = 0; m < describing.size(); ++m)
+      described.push_back(describe(atlas, m, scope, describing[m]));
+    Making making;
+    const PairOfMissions pair{std::uint32_t(described.size() - 1), 0};
+    found[work[k]] = match(atlas, pair, described, scope, making);
+    for (const Making& m : describing) making.seconds += m.seconds;
+    return making;
+  });
+}
+
 }  // namespace
 
 Known run_recognize(Known known, const StepScope& scope) {
   const Atlas& atlas = known.atlas;
-  auto pairs = mission_pairs(atlas.missions.size(), scope.step.keys.pairs);
+  const auto all = mission_pairs(atlas.missions.size(), scope.step.keys.pairs);
+  auto pairs = that_may_meet(all, atlas, scope);
+  const std::size_t apart = all.size() - pairs.size();
   if (scope.share) pairs = shared(std::move(pairs), *scope.share, atlas);
-  const auto described = describe(atlas, pairs, scope);
-  std::vector<std::vector<Candidate>> found(pairs.size());
-  scope.run_items(pairs.size(), [&](std::size_t i) {
-    Making making;
-    found[i] = match(atlas, pairs[i], described, scope, making);
-    return making;
-  });
+  const bool from_map = scope.step.configured.as<PlaceRecognizer>().uses_poses();
+  std::vector<PairOfMissions> missions;
+  for (const MissionPair& pair : pairs) missions.push_back(pair.missions);
+  const auto own = from_map ? pair_maps(known, missions, scope)
+                            : std::vector<std::shared_ptr<const Atlas>>(pairs.size());
+  Found found(pairs.size());
+  search(atlas, pairs, own, scope, found);
+  search_alone(own, scope, found);
   std::vector<Loop> loops;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     for (std::size_t k = 0; k < found[i].size(); ++k) {
-      check(found[i][k], pairs[i], atlas, scope.step);
-      const auto& slices = pairs[i].slices;
-      if (std::find(slices.begin(), slices.end(), k % pairs[i].of) != slices.end())
-        loops.push_back(to_loop(found[i][k], pairs[i], scope.step.plugin));
+      check(found[i][k], missions[i], atlas, scope.step);
+      if (pairs[i].takes(k))
+        loops.push_back(to_loop(found[i][k], missions[i], scope.step.plugin, from_map));
     }
   const std::size_t proposed = loops.size(), added = add_loops(known.atlas.loops, std::move(loops));
   scope.record.summary = fmt::format("{} candidates, {} of them new", proposed, added);
+  if (apart > 0)
+    scope.record.summary +=
+        fmt::format("; {} of {} pairs of missions are too far apart to meet", apart, all.size());
   return known;
 }
 

@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/steps.hpp"
 
+#include <algorithm>
+
 namespace cambium {
 
 void StepScope::run_items(std::size_t count, const std::function<Making(std::size_t)>& item) const {
   engine.progress().expect(count);
   std::vector<Making> makings(count);
-  engine.parallel_for(count, [&](std::size_t i) {
+  const auto one = [&](std::size_t i) {
     makings[i] = item(i);
     engine.progress().advance();
-  });
+  };
+  // In blocks, so that memory is looked at in between; large enough to keep all threads busy.
+  const std::size_t block = 64 * std::size_t(engine.threads());
+  for (std::size_t begin = 0; begin < count; begin += block) {
+    const std::size_t size = std::min(block, count - begin);
+    if (engine.within_memory(step.title()))
+      engine.parallel_for(size, [&](std::size_t i) { one(begin + i); });
+    else
+      for (std::size_t i = begin; i < begin + size; ++i) {
+        engine.parallel_for(1, [&](std::size_t) { one(i); });
+        engine.within_memory(step.title());
+      }
+  }
   record.items += count;
   for (const Making& m : makings) {
     record.cached += m.hit;

@@ -11,6 +11,7 @@ struct Known {
   Atlas atlas;
   std::map<std::string, std::shared_ptr<const PayloadSources>> streams;
   std::vector<Metric> metrics;
+  const Step* relaxed_by = nullptr;  ///< the last `optimize` so far
 };
 
 using KeyParts = std::vector<std::pair<std::string, std::string>>;

@@ -15,6 +15,11 @@ void check_order(const StepSpec& step, Loops& loops, Diagnostics& diagnostics) {
   const std::string& verb = step.verb->word;
   if (verb == "recognize") {
     loops = Loops::candidates;
+  } else if (verb == "register" && step.keys.loops == "accepted") {
+    if (loops != Loops::judged)
+      diagnostics.add(step.where,
+                      "'register' with 'loops: accepted' has no accepted loops to work on; put a "
+                      "'verify' step right before it, or an 'optimize' step behind one");
   } else if (verb == "register") {
     if (loops != Loops::candidates)
       diagnostics.add(step.where,

@@ -8,6 +8,7 @@
 
 #include "cambium/dialect.hpp"
 #include "cambium/error.hpp"
+#include "model/own_frame.hpp"
 
 namespace cambium {
 namespace {
@@ -24,12 +25,13 @@ std::vector<std::string> lines_of(const Mission& part) {
 /// Builds the joint graph, one mission after another.
 class Fusion {
  public:
-  explicit Fusion(const Atlas& atlas) : atlas_(atlas) {}
+  Fusion(const Atlas& atlas, const Island& island) : atlas_(atlas), island_(island) {}
 
   void add_mission(const MissionState& state) {
     const Mission& mission = *state.mission;
-    // The map frame is that of the island's first mission, so only its priors and FIX lines hold.
+    // FIX lines of the first mission hold the map; priors hold in the frame they were made in.
     const bool anchors = fused_.nodes.empty();
+    const bool own_frame = gives_map_frame(state, island_, atlas_);
     comment(fmt::format("MISSION {} PLATFORM_ID {} ID_OFFSET {} NODES {}", mission.name,
                         mission.platform_id, state.id_offset, mission.nodes.size()));
     Mission remarks;
@@ -42,7 +44,7 @@ class Fusion {
       // Its PARAMS_SE3OFFSET line becomes a comment; the model's pose is that of the base already.
       if (edge.tag == "EDGE_SE3_PRIOR") edge.tag.clear();
       const bool unary = edge.kind == EdgeKind::prior || edge.kind == EdgeKind::position;
-      (unary && !anchors ? remarks : fused_).edges.push_back(std::move(edge));
+      (unary && !own_frame ? remarks : fused_).edges.push_back(std::move(edge));
     }
     for (const std::string& line : lines_of(remarks)) {
       const std::size_t text = line.find_first_not_of("# ");
@@ -75,7 +77,7 @@ class Fusion {
     fused_.edges.push_back(std::move(edge));
   }
 
-  Mission finish(const Island& island) && {
+  Mission finish() && {
     std::sort(fused_.nodes.begin(), fused_.nodes.end(),
               [](const Node& a, const Node& b) { return a.id < b.id; });
     const auto twice =
@@ -87,10 +89,10 @@ class Fusion {
                               "offsets that keep them apart",
                               twice->id));
     fused_.name = "fused";
-    fused_.georeference = georeference(atlas_, island);
+    fused_.georeference = georeference(atlas_, island_);
     const auto platform = [&](std::uint32_t m) { return atlas_.missions[m].mission->platform_id; };
-    const int first = platform(island.missions.front());
-    if (std::all_of(island.missions.begin(), island.missions.end(),
+    const int first = platform(island_.missions.front());
+    if (std::all_of(island_.missions.begin(), island_.missions.end(),
                     [&](std::uint32_t m) { return platform(m) == first; }))
       fused_.platform_id = first;
     return std::move(fused_);
@@ -115,13 +117,14 @@ class Fusion {
   }
 
   const Atlas& atlas_;
+  const Island& island_;
   Mission fused_;
 };
 
 }  // namespace
 
 Mission fused_mission(const Atlas& atlas, const Island& island) {
-  Fusion fusion(atlas);
+  Fusion fusion(atlas, island);
   for (const std::uint32_t m : island.missions) fusion.add_mission(atlas.missions[m]);
   const auto in_island = [&](NodeRef n) {
     return std::binary_search(island.missions.begin(), island.missions.end(), n.mission);
@@ -131,7 +134,7 @@ Mission fused_mission(const Atlas& atlas, const Island& island) {
     if (loop.state == LoopState::accepted && in_island(loop.tail) && in_island(loop.head))
       fusion.add_loop(loop);
   }
-  return std::move(fusion).finish(island);
+  return std::move(fusion).finish();
 }
 
 }  // namespace cambium

@@ -51,7 +51,10 @@ Job make_job(const Cell& cell, std::size_t index, const std::vector<std::string>
   ResolvedPipeline pipeline = cell.pipeline;
   pipeline.spec.seed = seed;
   pipeline.spec.missions.clear();
-  for (const std::string& m : missions) pipeline.spec.missions.push_back({m, "", "", {}, m});
+  for (const std::string& m : missions) {  // a pipeline's own paths count from where it lies
+    const std::string path = std::filesystem::absolute(m).lexically_normal().string();
+    pipeline.spec.missions.push_back({path, "", "", {}, path});
+  }
   Job job{index, seed, cell.name, steps_of(pipeline, cell.choices.back().second), {}, {}, {}};
   if (seed != first) job.name += fmt::format(".seed{}", seed);
   job.out = settings.out / "cells" / job.name;

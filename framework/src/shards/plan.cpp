@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cambium/files.hpp"
+#include "engine/meeting.hpp"
 #include "engine/missions.hpp"
 #include "engine/program.hpp"
 
@@ -18,16 +19,30 @@ double estimated_cost(const Mission& query, const Mission& reference) {
   return double(query.nodes.size()) * (1 + 1e-3 * double(reference.nodes.size()));
 }
 
+/// Up to how far apart any step compares missions; 0: it does not matter to one of them.
+double widest(const ResolvedPipeline& pipeline) {
+  double out = -1;
+  for (const Step& step : pipeline.steps) {
+    if (step.verb->kind != Kind::place_recognizer) continue;
+    if (step.keys.max_distance == 0) return 0;
+    out = std::max(out, step.keys.max_distance);
+  }
+  return std::max(out, 0.0);
+}
+
 }  // namespace
 
 Plan make_plan(const ResolvedPipeline& pipeline, const Registry& registry, const Engine& engine) {
   Plan plan{to_yaml(pipeline), program_build().hex(), 0, {}};
   for (const std::size_t wave : waves_of(pipeline)) plan.waves = std::max(plan.waves, wave);
   const Atlas atlas = read_missions(pipeline.spec, registry, engine);
+  const Meetings meetings(atlas, widest(pipeline));
   for (std::size_t q = 0; q < atlas.missions.size(); ++q)
     for (std::size_t r = 0; r <= q; ++r) {
       const Mission &query = *atlas.missions[q].mission, &reference = *atlas.missions[r].mission;
-      plan.pairs.push_back({query.name, reference.name, estimated_cost(query, reference)});
+      const bool meet = meetings.apart(std::uint32_t(q), std::uint32_t(r)) == Meetings::Apart::no;
+      plan.pairs.push_back(
+          {query.name, reference.name, meet ? estimated_cost(query, reference) : 0.0});
     }
   return plan;
 }

@@ -30,6 +30,29 @@ double overlap(const Footprint& a, const Footprint& b) {
   return double(common) / double(std::min(a.size(), b.size()));
 }
 
+namespace {
+
+struct Box {
+  Vec3 low = Vec3::Constant(INFINITY), high = Vec3::Constant(-INFINITY);
+};
+
+Box box_of(const Recording& r) {
+  Box out;
+  for (const TruePose& p : r.truth) {
+    out.low = out.low.cwiseMin(p.T_world_base.t);
+    out.high = out.high.cwiseMax(p.T_world_base.t);
+  }
+  return out;
+}
+
+/// Whether any two nodes of the missions can be so near: of a hundred missions most pairs cannot.
+bool reach(const Box& a, const Box& b, double distance) {
+  const Vec3 gap = (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0);
+  return gap.norm() <= distance;
+}
+
+}  // namespace
+
 std::vector<LoopPair> true_loops(const std::vector<Recording>& recordings,
                                  const std::vector<std::vector<Footprint>>& footprints,
                                  const LoopsSpec& spec) {
@@ -42,12 +65,16 @@ std::vector<LoopPair> true_loops(const std::vector<Recording>& recordings,
     p.overlap = overlap(footprints[p.tail_mission][p.tail], footprints[p.head_mission][p.head]);
     if (p.overlap > 0 && p.overlap >= spec.min_overlap) out.push_back(p);
   };
+  std::vector<Box> boxes;
+  for (const Recording& r : recordings) boxes.push_back(box_of(r));
   for (std::size_t m = 0; m < recordings.size(); ++m)
     for (std::size_t i = 0; i < footprints[m].size(); ++i)
-      for (std::size_t n = m; n < recordings.size(); ++n)
+      for (std::size_t n = m; n < recordings.size(); ++n) {
+        if (!reach(boxes[m], boxes[n], spec.max_baseline)) continue;
         for (std::size_t j = n == m ? i + std::size_t(spec.min_gap) : 0; j < footprints[n].size();
              ++j)
           consider({m, i, n, j, 0, 0});
+      }
   return out;
 }
 

@@ -81,7 +81,8 @@ Recording record(const SimulationSpec& spec, std::size_t mission, const Terrain&
   const MissionSpec& m = out.spec;
   // By name: what another mission does, or their order, changes nothing here.
   out.seed = Random(std::uint64_t(spec.seed), m.name).next();
-  out.stems = after_harvest(stems, m.harvested, std::uint64_t(spec.seed));
+  out.stems = after_growth(after_harvest(stems, m.harvested, std::uint64_t(spec.seed)), m.growth,
+                           std::uint64_t(spec.seed));
   std::vector<Stem> obstacles = out.stems;
   obstacles.insert(obstacles.end(), clutter.begin(), clutter.end());
   out.truth = walk(m, terrain, obstacles, out.seed);

@@ -20,6 +20,22 @@ Lidar::Lidar(const SensorSpec& spec) : spec_(spec) {
     }
 }
 
+namespace {
+
+/// The codes of docs/formats.md.
+std::uint8_t label_of(Surface surface) {
+  switch (surface) {
+    case Surface::ground: return 2;
+    case Surface::stem: return 64;
+    case Surface::clutter: return 65;
+    case Surface::foliage: return 66;
+    case Surface::none: break;
+  }
+  return 0;
+}
+
+}  // namespace
+
 Cloud Lidar::scan(const Scene& scene, const SE3& T_world_base, const Random& stream) const {
   const Eigen::Matrix3f R_world_base = T_world_base.rotation().cast<float>();
   const Eigen::Vector3f origin = T_world_base.t.cast<float>();
@@ -33,6 +49,7 @@ Cloud Lidar::scan(const Scene& scene, const SE3& T_world_base, const Random& str
     const float range = hit.range + float(spec_.range_noise * random.normal());
     const Eigen::Vector3f p_base = range * directions_[ray];
     cloud.xyz.insert(cloud.xyz.end(), p_base.data(), p_base.data() + 3);
+    if (spec_.labels) cloud.label.push_back(label_of(hit.surface));
   }
   return cloud;
 }

@@ -3,8 +3,10 @@
 
 #include "cambium/error.hpp"
 #include "cambium/files.hpp"
+#include "simulate/camera.hpp"
 #include "simulate/sensor.hpp"
 #include "simulate/tree_table.hpp"
+#include "engine/mission_files.hpp"
 #include "simulate/write.hpp"
 
 namespace cambium::simulate {
@@ -33,16 +35,39 @@ void check_folder(const fs::path& out, const std::string& text) {
               "new folder");
 }
 
+/// Of what stands, all that a detector may see from somewhere on the path.
+std::vector<Stem> in_sight(const std::vector<Stem>& stems, const Recording& r) {
+  // The detector measures ranges in the robot's own axes, which lean by a few degrees.
+  const double reach = 1.2 * r.spec.trees.max_range + 20;
+  Vec3 low = r.truth.front().T_world_base.t, high = low;
+  for (const TruePose& p : r.truth) {
+    low = low.cwiseMin(p.T_world_base.t);
+    high = high.cwiseMax(p.T_world_base.t);
+  }
+  std::vector<Stem> out;
+  for (const Stem& s : stems)
+    if (s.base.x() > low.x() - reach && s.base.x() < high.x() + reach &&
+        s.base.y() > low.y() - reach && s.base.y() < high.y() + reach)
+      out.push_back(s);
+  return out;
+}
+
 /// Simulates and writes the payloads of one mission, node by node, side by side.
 class PayloadWriter {
  public:
   PayloadWriter(const SimulationSpec& spec, const World& world, const Recording& recording)
       : world_(world),
         r_(recording),
+        stems_(in_sight(recording.stems, recording)),
+        clutter_(in_sight(world.clutter, recording)),
         lidar_(recording.spec.sensor),
-        scene_(world.terrain, recording.stems, world.clutter,
-               grow(spec.foliage, spec.stand, world.terrain, recording.stems,
-                    std::uint64_t(spec.seed))) {}
+        camera_(recording.spec.camera) {
+    // Leaves are grown for rays only: over a large stand they are most of the work.
+    if (recording.spec.sensor.clouds || recording.spec.camera.enabled)
+      scene_.emplace(
+          world.terrain, recording.stems, world.clutter,
+          grow(spec.foliage, spec.stand, world.terrain, recording.stems, std::uint64_t(spec.seed)));
+  }
 
   std::vector<Footprint> write(const fs::path& folder, const Context& context,
                                MissionSummary& summary) const {
@@ -52,6 +77,7 @@ class PayloadWriter {
     context.parallel_for(nodes, [&](std::size_t i) {
       context.check_cancelled();
       if (r_.spec.trees.enabled) detections[i] = write_table(i, folder, footprints[i]);
+      if (r_.spec.camera.enabled) write_image(i, folder);
       if (r_.spec.sensor.clouds) points[i] = write_scan(i, folder, footprints[i]);
     });
     for (const std::size_t n : points) summary.points += n;
@@ -68,14 +94,20 @@ class PayloadWriter {
 
   std::size_t write_scan(std::size_t i, const fs::path& folder, Footprint& out) const {
     const SE3& T_world_base = r_.truth[i].T_world_base;
-    const Cloud cloud = lidar_.scan(scene_, T_world_base, Random(r_.seed, "scan", i));
+    const Cloud cloud = lidar_.scan(*scene_, T_world_base, Random(r_.seed, "scan", i));
     if (!overwritten(i)) write_cloud(cloud, *r_.mission.nodes[i].stamp, folder);
     out = footprint(cloud, T_world_base);
     return cloud.size();
   }
 
+  void write_image(std::size_t i, const fs::path& folder) const {
+    if (!overwritten(i))
+      write_picture(camera_.look(*scene_, r_.truth[i].T_world_base, Random(r_.seed, "camera", i)),
+                    *r_.mission.nodes[i].stamp, folder);
+  }
+
   std::size_t write_table(std::size_t i, const fs::path& folder, Footprint& out) const {
-    TreeTable table = detect(r_.spec.trees, r_.truth[i].T_world_base, r_.stems, world_.clutter,
+    TreeTable table = detect(r_.spec.trees, r_.truth[i].T_world_base, stems_, clutter_,
                              world_.terrain, Random(r_.seed, "trees", i));
     if (!overwritten(i)) write_trees(table.trees, *r_.mission.nodes[i].stamp, folder);
     out = std::move(table.stems);
@@ -84,8 +116,10 @@ class PayloadWriter {
 
   const World& world_;
   const Recording& r_;
+  std::vector<Stem> stems_, clutter_;  ///< in sight of the path
   Lidar lidar_;
-  Scene scene_;
+  Camera camera_;
+  std::optional<Scene> scene_;
 };
 
 MissionSummary summary_of(const Recording& r) {

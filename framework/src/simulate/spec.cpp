@@ -98,6 +98,10 @@ void MissionSpec::params(ParamVisitor& v) {
   v("start", start, "Unix time of the first node; 0 = an hour after the mission before",
     at_least(0));
   v("harvested", harvested, "Share of the trees that were cut before this mission", between(0, 1));
+  v("growth", growth,
+    "What the diameters have grown before this mission, on average; a stem grows half of it to one "
+    "and a half times",
+    between(0, 0.5, "m"));
   v("gravity_tilt", gravity_tilt, "Angle between the mission's z axis and the vertical",
     between(0, 90, "deg"));
   v("duplicate_stamps", duplicate_stamps, "So many nodes carry the stamp of the node before them",

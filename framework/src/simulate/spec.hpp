@@ -55,12 +55,19 @@ struct PathSpec : Component {
 };
 
 struct SensorSpec : Component {
-  bool clouds = true;
+  bool clouds = true, labels = false;
   int beams = 32, columns = 1024;
   double lowest = -22.5, highest = 22.5, mount_pitch = 0;
   double min_range = 0.7, max_range = 60, range_noise = 0.02, sway = 2;
   void params(ParamVisitor& v) override;
   std::string check_params() const override;
+};
+
+struct CameraSpec : Component {
+  bool enabled = false;
+  int columns = 320, rows = 240;
+  double field_of_view = 90, noise = 3;
+  void params(ParamVisitor& v) override;
 };
 
 struct OdometrySpec : Component {
@@ -89,7 +96,7 @@ struct MissionSpec : Component {
   std::string name;
   int platform = 0;
   std::int64_t start = 0;  ///< 0: one hour after the mission before
-  double harvested = 0, gravity_tilt = 0;
+  double harvested = 0, growth = 0, gravity_tilt = 0;
   int duplicate_stamps = 0, carried_at = 0;
   std::vector<double> carried_by{0, 0};
   void params(ParamVisitor& v) override;
@@ -97,6 +104,7 @@ struct MissionSpec : Component {
 
   PathSpec path;
   SensorSpec sensor;
+  CameraSpec camera;
   OdometrySpec odometry;
   GnssSpec gnss;
   TreesSpec trees;

@@ -23,6 +23,7 @@ struct Section {
 std::vector<Section> mission_sections(MissionSpec& m) {
   return {{"path", &m.path},
           {"sensor", &m.sensor},
+          {"camera", &m.camera},
           {"odometry", &m.odometry},
           {"gnss", &m.gnss},
           {"trees", &m.trees}};

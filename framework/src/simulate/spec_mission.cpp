@@ -30,6 +30,7 @@ std::string PathSpec::check_params() const {
 
 void SensorSpec::params(ParamVisitor& v) {
   v("clouds", clouds, "Write a point cloud for every node");
+  v("labels", labels, "Write with each point whether it lies on ground, trunk, branch or leaf");
   v("beams", beams, "Of the spinning lidar: 16, 32, 64", between(1, 256));
   v("columns", columns, "Directions in one turn", between(8, 4096));
   v("lowest", lowest, "Elevation of the lowest beam", between(-90, 90, "deg"));
@@ -47,6 +48,14 @@ void SensorSpec::params(ParamVisitor& v) {
 std::string SensorSpec::check_params() const {
   if (highest < lowest) return "'highest' must not be below 'lowest'";
   return min_range < max_range ? "" : "'min_range' must be below 'max_range'";
+}
+
+void CameraSpec::params(ParamVisitor& v) {
+  v("enabled", enabled, "Write a grey picture for every node, of what lies ahead");
+  v("columns", columns, "Pixels across", between(16, 4096));
+  v("rows", rows, "Pixels down", between(16, 4096));
+  v("field_of_view", field_of_view, "From the left to the right border", between(10, 150, "deg"));
+  v("noise", noise, "Standard deviation of a pixel, of 255", between(0, 100));
 }
 
 void OdometrySpec::params(ParamVisitor& v) {

@@ -70,4 +70,9 @@ std::vector<Stem> after_harvest(const std::vector<Stem>& stems, double share, st
   return out;
 }
 
+std::vector<Stem> after_growth(std::vector<Stem> stems, double mean, std::uint64_t seed) {
+  for (Stem& s : stems) s.dbh += mean * Random(seed, "growth", s.mark).uniform(0.5, 1.5);
+  return stems;
+}
+
 }  // namespace cambium::simulate

@@ -27,4 +27,8 @@ std::vector<Stem> scatter_clutter(const ClutterSpec& spec, const StandSpec& stan
 /// The stems that still stand after a share of them was cut. A larger share cuts the same and more.
 std::vector<Stem> after_harvest(const std::vector<Stem>& stems, double share, std::uint64_t seed);
 
+/// The stems with thicker diameters: each by half to one and a half of `mean` [m], its own share
+/// the same for any mean. Heights stay.
+std::vector<Stem> after_growth(std::vector<Stem> stems, double mean, std::uint64_t seed);
+
 }  // namespace cambium::simulate

@@ -42,6 +42,9 @@ Vec2 clear_of(const std::vector<Stem>& obstacles, const Terrain& terrain, Vec2 p
   for (int round = 0; round < 8; ++round) {
     bool moved = false;
     for (const Stem& s : obstacles) {
+      // Most stand too far away to touch, whatever the ground: that is cheaper to see.
+      const double reach = s.height * s.axis.head<2>().norm() + s.radius_at(0) + clearance;
+      if ((place - s.base.head<2>()).squaredNorm() > reach * reach) continue;
       const double along = terrain.height(place.x(), place.y()) + height - s.base.z();
       if (along > s.height) continue;
       const Vec2 center = (s.base + std::max(0.0, along) * s.axis).head<2>();
@@ -55,6 +58,20 @@ Vec2 clear_of(const std::vector<Stem>& obstacles, const Terrain& terrain, Vec2 p
     if (!moved) break;
   }
   return place;
+}
+
+/// Those that the path may touch: pushed from stem to stem it strays a few metres, and stems lean.
+std::vector<Stem> beside(const std::vector<Step>& steps, const std::vector<Stem>& obstacles) {
+  constexpr double strays = 30;  // [m]
+  Vec2 low = Vec2::Constant(INFINITY), high = -low;
+  for (const Step& s : steps) low = low.cwiseMin(s.place), high = high.cwiseMax(s.place);
+  std::vector<Stem> out;
+  for (const Stem& s : obstacles) {
+    const Vec2 base = s.base.head<2>();
+    const double reach = strays + s.height * s.axis.head<2>().norm();
+    if (((low - base).cwiseMax(base - high).array() < reach).all()) out.push_back(s);
+  }
+  return out;
 }
 
 double mean_ground(const std::vector<Step>& steps, const Terrain& terrain) {
@@ -74,10 +91,11 @@ std::vector<TruePose> walk(const MissionSpec& mission, const Terrain& terrain,
       steps[i].place += Vec2(mission.carried_by[0], mission.carried_by[1]);
   const double level = mean_ground(steps, terrain), sway = radians(mission.sensor.sway);
   const Random stream(seed, "sway");
+  const std::vector<Stem> near = beside(steps, obstacles);
   std::vector<TruePose> out;
   for (const Step& step : steps) {
     Random r = stream.fork(out.size());
-    const Vec2 p = path.level ? step.place : clear_of(obstacles, terrain, step.place, path.height);
+    const Vec2 p = path.level ? step.place : clear_of(near, terrain, step.place, path.height);
     const double ground = path.level ? level : terrain.height(p.x(), p.y());
     const double roll = sway * r.normal(), pitch = sway * r.normal();
     const double yaw = step.yaw + sway * r.normal();

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
-#include <unordered_set>
+#include <unordered_map>
 
 #include "cambium/dialect.hpp"
 #include "cambium/files.hpp"
+#include "engine/mission_files.hpp"
 
 namespace cambium::simulate {
 namespace {
@@ -22,20 +22,6 @@ void write_text(const fs::path& path, const std::string& text) {
   file.commit();
 }
 
-std::string stamped(const char* prefix, const Stamp& s, const char* extension) {
-  return fmt::format("{}_{}_{:09}{}", prefix, s.sec, s.nsec, extension);
-}
-
-void write_fixes(const std::vector<GnssFix>& fixes, const fs::path& path) {
-  std::string text = "sec,nsec,lat,lon,alt,sd_e,sd_n,sd_u\n";
-  for (const GnssFix& f : fixes)
-    fmt::format_to(std::back_inserter(text), "{},{},{:.9f},{:.9f},{:.3f},{:.3f},{:.3f},{:.3f}\n",
-                   f.stamp.sec, f.stamp.nsec, f.latitude, f.longitude, f.altitude,
-                   std::sqrt(f.covariance(0, 0)), std::sqrt(f.covariance(1, 1)),
-                   std::sqrt(f.covariance(2, 2)));
-  write_text(path, text);
-}
-
 }  // namespace
 
 void write_recording(const Recording& recording, const fs::path& folder) {
@@ -47,51 +33,38 @@ void write_recording(const Recording& recording, const fs::path& folder) {
   for (std::size_t i = 0; i < recording.truth.size(); ++i)
     truth.push_back({*recording.mission.nodes[i].stamp, recording.truth[i].T_world_base});
   write_text(folder / "ground_truth.tum", format_tum(truth));
-  if (!recording.mission.fixes.empty()) write_fixes(recording.mission.fixes, folder / "gnss.csv");
+  if (!recording.mission.fixes.empty()) write_fixes(recording.mission.fixes, folder);
 }
 
-void write_cloud(const Cloud& cloud, const Stamp& stamp, const fs::path& mission_folder) {
-  const fs::path folder = mission_folder / "individual_clouds";
+void write_picture(const Picture& picture, const Stamp& stamp, const fs::path& mission_folder) {
+  const fs::path folder = mission_folder / "individual_images";
   fs::create_directories(folder);
-  AtomicFile file(folder / stamped("cloud", stamp, ".pcd"), durability);
-  file.stream() << fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\n"
-      "TYPE F F F\nCOUNT 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\n"
-      "DATA binary\n",
-      cloud.size());
-  file.stream().write(reinterpret_cast<const char*>(cloud.xyz.data()),
-                      std::streamsize(cloud.xyz.size() * sizeof(float)));
-  file.commit();
-}
-
-void write_trees(const std::vector<Tree>& trees, const Stamp& stamp,
-                 const fs::path& mission_folder) {
-  const fs::path folder = mission_folder / "individual_trees";
-  fs::create_directories(folder);
-  std::string text = "x,y,z,axis_x,axis_y,axis_z,dbh,score,reconstructed\n";
-  for (const Tree& t : trees)
-    fmt::format_to(std::back_inserter(text),
-                   "{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.4f},{:.3f},{:.2f},{}\n", t.base.x(),
-                   t.base.y(), t.base.z(), t.axis.x(), t.axis.y(), t.axis.z(), t.dbh, t.score,
-                   int(t.reconstructed));
-  write_text(folder / stamped("trees", stamp, ".csv"), text);
+  write_text(folder / stamped("image", stamp, ".png"), png_of(picture));
 }
 
 void write_stems(const std::vector<Stem>& stems, const std::vector<Recording>& recordings,
                  const fs::path& path) {
   std::string text = "x,y,z,axis_x,axis_y,axis_z,dbh,height";
-  std::vector<std::unordered_set<std::uint64_t>> standing;
+  std::vector<std::unordered_map<std::uint64_t, double>> standing;  // diameters by mark
   for (const Recording& r : recordings) {
     text += "," + r.mission.name;
     standing.emplace_back();
-    for (const Stem& s : r.stems) standing.back().insert(s.mark);
+    for (const Stem& s : r.stems) standing.back().emplace(s.mark, s.dbh);
   }
+  // Only where they are not those of the column dbh.
+  for (const Recording& r : recordings)
+    if (r.spec.growth > 0) text += ",dbh_" + r.mission.name;
   text += '\n';
   for (const Stem& s : stems) {
     fmt::format_to(std::back_inserter(text),
                    "{:.3f},{:.3f},{:.3f},{:.5f},{:.5f},{:.5f},{:.4f},{:.2f}", s.base.x(),
                    s.base.y(), s.base.z(), s.axis.x(), s.axis.y(), s.axis.z(), s.dbh, s.height);
     for (const auto& marks : standing) text += marks.contains(s.mark) ? ",1" : ",0";
+    for (std::size_t m = 0; m < recordings.size(); ++m) {
+      if (!(recordings[m].spec.growth > 0)) continue;
+      const auto then = standing[m].find(s.mark);
+      text += then == standing[m].end() ? "," : fmt::format(",{:.4f}", then->second);
+    }
     text += '\n';
   }
   write_text(path, text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of a simulation. Every file is whole or absent.
 #pragma once
+#include "simulate/camera.hpp"
 #include "simulate/loops.hpp"
 
 namespace cambium::simulate {
@@ -10,11 +11,8 @@ namespace fs = std::filesystem;
 /// Pose graph, gnss.csv when there are fixes, ground_truth.tum (T_world_node, ENU).
 void write_recording(const Recording& recording, const fs::path& folder);
 
-/// Binary PCD with x, y, z in the base frame.
-void write_cloud(const Cloud& cloud, const Stamp& stamp, const fs::path& mission_folder);
-
-void write_trees(const std::vector<Tree>& trees, const Stamp& stamp,
-                 const fs::path& mission_folder);
+/// A PNG file for every node, of what the camera saw.
+void write_picture(const Picture& picture, const Stamp& stamp, const fs::path& mission_folder);
 
 /// The true stem map in the world frame, with a column for each mission: 1 = it stood then.
 void write_stems(const std::vector<Stem>& stems, const std::vector<Recording>& recordings,
