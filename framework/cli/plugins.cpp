@@ -4,6 +4,7 @@
 #include "host.hpp"
 #include "pipeline/describe.hpp"
 #include "pipeline/diagnostics.hpp"
+#include "pipeline/preset.hpp"
 
 namespace cambium::cli {
 namespace {
@@ -25,13 +26,21 @@ void list(const Registry& registry) {
                "CAMBIUM_PLUGIN_PATH\n");
 }
 
-void describe(const Registry& registry, const std::string& name) {
+void describe(const Registry& registry, const std::string& name,
+              const std::vector<std::string>& settings) {
   std::string sections;
+  std::optional<Error> refused;
   std::vector<std::string> names;
   for (const auto& [key, c] : registry.all()) {
     names.push_back(c.name);
-    if (c.name == name) sections += describe_markdown(c);
+    if (c.name != name) continue;
+    try {
+      sections += describe_markdown(preset(c, settings));
+    } catch (const Error& e) {  // a script is of one kind, its name of several
+      refused = e;
+    }
   }
+  if (sections.empty() && refused) throw Error(*refused);
   if (sections.empty())
     throw Error(ErrorCode::config, "",
                 fmt::format("no plugin is called '{}'{}", name, suggestion(name, names)));
@@ -42,6 +51,7 @@ void describe(const Registry& registry, const std::string& name) {
 
 void add_plugins_new(CLI::App& plugins);
 void add_plugins_check(CLI::App& plugins, const std::shared_ptr<PluginOptions>& options);
+void add_plugins_bench(CLI::App& plugins, const std::shared_ptr<PluginOptions>& options);
 
 void add_plugins(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("plugins", "What can be named in a pipeline");
@@ -56,15 +66,19 @@ void add_plugins(CLI::App& app) {
   CLI::App* d =
       sub->add_subcommand("describe", "One plugin, or all, with the parameters, as Markdown");
   d->fallthrough()->add_option("NAME", *name, "As in a pipeline; all when it is missing");
-  d->callback([options, name] {
+  auto settings = std::make_shared<std::vector<std::string>>();
+  d->add_option("--set", *settings, "With this parameter: PARAM=VALUE, such as a script")
+      ->allow_extra_args(false);
+  d->callback([options, name, settings] {
     const PluginLoader loader = options->load();
     if (name->empty())
       fmt::print("{}", reference_markdown(loader.registry()));
     else
-      describe(loader.registry(), *name);
+      describe(loader.registry(), *name, *settings);
   });
   add_plugins_new(*sub);
   add_plugins_check(*sub, options);
+  add_plugins_bench(*sub, options);
 }
 
 }  // namespace cambium::cli

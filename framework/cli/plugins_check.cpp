@@ -10,6 +10,8 @@
 #include "engine/child.hpp"
 #include "engine/program.hpp"
 #include "host.hpp"
+#include "pipeline/diagnostics.hpp"
+#include "pipeline/preset.hpp"
 #include "plugins/search_path.hpp"
 
 namespace cambium::cli {
@@ -20,7 +22,7 @@ using conformance::Finding;
 using conformance::Outcome;
 
 struct Options {
-  std::vector<std::string> libraries;
+  std::vector<std::string> libraries, settings;
   std::string only, component, record;
   double time_limit = 300;
   bool all = false;
@@ -42,6 +44,7 @@ std::vector<Finding> judge_apart(const Registered& r, const Options& o, const fs
       "--component",           title(r),  "--record", record.string()};
   for (const std::string& entry : o.plugins->path)
     command.insert(command.end(), {"--plugin-path", entry});
+  for (const std::string& setting : o.settings) command.insert(command.end(), {"--set", setting});
   write_file(record, "");
   Child child(std::move(command), log, o.time_limit);
   while (!child.ended()) wait_any({child.descriptor()}, 0.2);
@@ -51,7 +54,8 @@ std::vector<Finding> judge_apart(const Registered& r, const Options& o, const fs
 
 void judge_one(const Options& o, const Registry& own, const Registry& all) {
   for (const auto& [key, registered] : own.all())
-    if (title(registered) == o.component) return conformance::judge_here(registered, all, o.record);
+    if (title(registered) == o.component)
+      return conformance::judge_here(preset(registered, o.settings), all, o.record);
   throw Error(ErrorCode::plugin, o.libraries[0], fmt::format("has no '{}'", o.component));
 }
 
@@ -68,7 +72,28 @@ std::size_t print(const std::vector<Finding>& findings, bool all) {
   return broken;
 }
 
-std::size_t check(const fs::path& library, const Options& o, const fs::path& folder) {
+/// "python", "place_recognizer" or "place_recognizer python".
+bool chosen(const Registered& r, const std::string& only) {
+  return only.empty() || only == r.name || only == to_string(r.kind) || only == title(r);
+}
+
+/// What stands on the command line is a library, or the name of a component that is found.
+fs::path library_of(const std::string& text, const Options& o) {
+  if (fs::exists(text)) return text;
+  PluginLoader loader;
+  loader.load(plugin_search_path(o.plugins->path));
+  std::vector<std::string> names;
+  for (const auto& [key, registered] : loader.registry().all()) {
+    if (registered.name == text) return registered.library;
+    names.push_back(registered.name);
+  }
+  throw Error(ErrorCode::config, text,
+              "is neither a library nor the name of a plugin" + suggestion(text, names));
+}
+
+/// `name`: of the components to check; empty: all.
+std::size_t check(const fs::path& library, const std::string& name, const Options& o,
+                  const fs::path& folder) {
   const auto of_file = conformance::judge_library(library);
   fmt::print("{}\n", library.string());
   std::size_t broken = print(of_file, o.all);
@@ -76,7 +101,7 @@ std::size_t check(const fs::path& library, const Options& o, const fs::path& fol
   PluginLoader own;
   own.load_file(library);
   for (const auto& [key, registered] : own.registry().all()) {
-    if (!o.only.empty() && registered.name != o.only) continue;
+    if (!chosen(registered, o.only) || !chosen(registered, name)) continue;
     const auto findings = judge_apart(registered, o, folder);
     const auto bad = std::count_if(findings.begin(), findings.end(),
                                    [](const Finding& f) { return f.outcome == Outcome::broken; });
@@ -97,7 +122,8 @@ void run(const Options& o) {
   const conformance::Host host(1);
   std::size_t broken = 0;
   for (const std::string& library : o.libraries)
-    broken += check(library, o, host.context()->scratch());
+    broken += check(library_of(library, o), fs::exists(library) ? "" : library, o,
+                    host.context()->scratch());
   if (broken > 0) throw Error(ErrorCode::check, "", fmt::format("{} law(s) are broken", broken));
 }
 
@@ -108,8 +134,11 @@ void add_plugins_check(CLI::App& plugins, const std::shared_ptr<PluginOptions>& 
   o->plugins = options;
   CLI::App* sub = plugins.add_subcommand("check", "Try a plugin against the laws of its kind");
   sub->fallthrough();
-  sub->add_option("LIBRARY", o->libraries, "Plugins to check (.so)")->required();
-  sub->add_option("--only", o->only, "Only the component of this name");
+  sub->add_option("LIBRARY", o->libraries, "Plugins to check (.so), or names as in a pipeline")
+      ->required();
+  sub->add_option("--only", o->only, "Only the components of this name, or of this kind");
+  sub->add_option("--set", o->settings, "A parameter: PARAM=VALUE; may be given several times")
+      ->allow_extra_args(false);
   sub->add_option("--time-limit", o->time_limit, "Seconds for a component")->capture_default_str();
   sub->add_flag("--all", o->all, "Show the laws that hold, too");
   // How the command calls itself for one component.
@@ -117,7 +146,8 @@ void add_plugins_check(CLI::App& plugins, const std::shared_ptr<PluginOptions>& 
   sub->add_option("--record", o->record)->group("");
   sub->footer(
       "Exit code 1 when a law is broken.\n"
-      "Example: cambium plugins check build/ring_key.so --all");
+      "Example: cambium plugins check build/ring_key.so --all\n"
+      "         cambium plugins check python --only place_recognizer --set script=my_method.py");
   sub->callback([o] { run(*o); });
 }
 

@@ -11,6 +11,7 @@ namespace {
 struct Options {
   std::string kind, name;
   std::filesystem::path folder;
+  bool python = false;
 };
 
 constexpr Kind kinds[] = {Kind::mission_reader, Kind::payload_filter, Kind::place_recognizer,
@@ -29,7 +30,8 @@ Kind kind_of(const std::string& word) {
 
 void run(const Options& o) {
   const auto folder = o.folder.empty() ? std::filesystem::path(o.name) : o.folder;
-  for (const auto& file : write_new_plugin(kind_of(o.kind), o.name, folder))
+  const Language language = o.python ? Language::python : Language::cpp;
+  for (const auto& file : write_new_plugin(kind_of(o.kind), language, o.name, folder))
     fmt::print("{}\n", file.string());
   fmt::print("{}/README.md has the commands that build, check and run it.\n", folder.string());
 }
@@ -43,7 +45,10 @@ void add_plugins_new(CLI::App& plugins) {
   sub->add_option("KIND", o->kind, "place_recognizer, registration, ...")->required();
   sub->add_option("NAME", o->name, "As in a pipeline, such as ring_key")->required();
   sub->add_option("--folder", o->folder, "Where to write it (default: NAME)");
-  sub->footer("Example: cambium plugins new place_recognizer my_method");
+  sub->add_flag("--python", o->python, "As one Python file instead of C++ (docs/python-plugins.md)");
+  sub->footer(
+      "Example: cambium plugins new place_recognizer my_method\n"
+      "         cambium plugins new place_recognizer my_method --python");
   sub->callback([o] { run(*o); });
 }
 

@@ -9,6 +9,8 @@ configure_package_config_file(cmake/cambiumConfig.cmake.in ${CMAKE_CURRENT_BINAR
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/cambiumConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
+configure_file(cmake/cambium.pc.in ${CMAKE_CURRENT_BINARY_DIR}/cambium.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cambium.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/cambiumConfigVersion.cmake
               cmake/cambium_add_plugin.cmake cmake/cambium_test_plugin.cmake cmake/plugin.map DESTINATION ${package_dir})

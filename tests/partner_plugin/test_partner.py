@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A partner's view: Cambium installed, the page docs/write-a-plugin.md, and nothing else.
+"""A partner's view: Cambium installed, the pages docs/write-a-plugin.md and docs/tutorial.md, and nothing else.
 
 Arguments: the source folder, the build folder, and the name of a shipped plugin's folder that must
 also build outside the tree.
@@ -11,11 +11,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
 import missions
-import page
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "docs"))
+import page  # noqa: E402
 
 
 def run(*command, **options):
@@ -63,8 +66,32 @@ class Partner(unittest.TestCase):
             (folder / name).write_text(content)
         missions.write_mission(folder / "mission_a", 10, heading=0.0, seed=2)
         missions.write_mission(folder / "mission_b", 10, heading=1.0, seed=3)
-        self.assertRegex(self.shell(page.commands(self.page), folder), r"ring_key +Points per ring")
+        to_do = self.page.split("## What the plugin consists of")[0]
+        self.assertRegex(self.shell(page.commands(to_do), folder), r"ring_key +Points per ring")
         self.check_ledger(folder / "fused/ledger.jsonl")
+
+    def test_the_tutorial_word_for_word(self):
+        """A new user's shell: each block of the page as it comes, files written where the commands have led to."""
+        folder = self.work / "tutorial"
+        folder.mkdir()
+        script, text = [], Path(self.source, "docs/tutorial.md").read_text()
+        for number, block in enumerate(page.blocks(text)):
+            self.assertIn(block.language, ("sh", "cpp", "yaml"))
+            if block.file:
+                (folder / f"block_{number}").write_text(block.content)
+                script.append(f"cp {folder}/block_{number} {block.file}\n")
+            else:
+                script.append(block.content)
+        began = time.monotonic()
+        said = self.shell("".join(script), folder)
+        print(f"docs/tutorial.md: {time.monotonic() - began:.0f} s of commands")
+        self.assertIn("100% tests passed", said)
+        self.assertLess(len(page.files(text)["my_method.cpp"].splitlines()), 40)
+        table = (folder / "my_method/table/results.md").read_text()
+        for row in ("my_method", "wide", "scan_context"):
+            self.assertRegex(table, rf"(?m)^\| [^|]*{row}[^|]* \| ok \| .*\d")
+        results = json.loads((folder / "my_method/table/results.json").read_text())
+        self.assertEqual(results["findings"], [])
 
     def check_ledger(self, ledger):
         """Nodes of one number stand at one place; most must find each other."""
@@ -81,6 +108,28 @@ class Partner(unittest.TestCase):
             run("cmake", *command, env=self.environment)
         self.addCleanup(lambda: next(self.prefix.rglob("ring_key.so")).unlink())
         self.assertIn("ring_key", self.shell("cambium plugins list", self.work))
+
+    def test_pkg_config_and_components_lead_to_the_same_plugin(self):
+        folder = self.work / "by_hand"
+        folder.mkdir()
+        shutil.copy(Path(self.source, "tests/partner_plugin/ring_key.cpp"), folder)
+        found = next(self.prefix.rglob("cambium.pc")).parent
+        versions = Path(self.source, "docs/versions.md").read_text()
+        self.shell(f"export PKG_CONFIG_PATH={found}\n{page.commands(versions)}"
+                   "cambium plugins check ring_key.so\n", folder)
+        (folder / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+            "find_package(cambium 0.1 REQUIRED COMPONENTS plugin program)\n"
+            "find_package(cambium 0.1 COMPONENTS no_such_part)\n"
+            "if(cambium_FOUND)\n  message(FATAL_ERROR found)\nendif()\n")
+        self.shell("cmake -S . -B build", folder)
+
+    def test_abi_is_told_field_by_field(self):
+        said = self.shell("cambium --version --abi", self.work)
+        self.assertRegex(said, r"^cambium 0\.1\.0\napi 0\.1, plugins from 0\.1 on\nsize \d+\n")
+        self.assertRegex(said, r"\neigen_version 304\d\d\n")
+        self.assertRegex(said, r"\nheaders \d+\n")
+        self.assertEqual(self.shell("cambium --version", self.work), "cambium 0.1.0\n")
 
     def test_new_plugins_of_every_kind_build_keep_the_laws_and_run(self):
         folder = self.work / "new"

@@ -18,6 +18,8 @@ std::string outcome(const Call& call, const Context& context) try {
 } catch (const Broken&) {
   throw;
 } catch (const Error& e) {
+  if (e.code() == ErrorCode::plugin)  // a script's exception, for one
+    throw Broken(fmt::format("says itself that it is at fault: {}", e.what()));
   return std::string("refused: ") + e.what();
 } catch (const std::exception& e) {
   throw Broken(fmt::format("threw '{}'; expected a result or a cambium::Error", e.what()));

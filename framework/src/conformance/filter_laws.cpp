@@ -15,7 +15,9 @@ std::string bytes_of(const Payload& p) {
             fmt::format("{} normals' coordinates for {} points", c.normals.size(), c.size()));
     require(c.intensity.empty() || c.intensity.size() == c.size(),
             fmt::format("{} intensities for {} points", c.intensity.size(), c.size()));
-    out += encode(c.xyz) + encode(c.normals) + encode(c.intensity);
+    require(c.label.empty() || c.label.size() == c.size(),
+            fmt::format("{} labels for {} points", c.label.size(), c.size()));
+    out += encode(c.xyz) + encode(c.normals) + encode(c.intensity) + encode(c.label);
   }
   if (!p.trees) return out;
   for (const Tree& t : *p.trees) {

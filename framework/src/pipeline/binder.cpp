@@ -6,10 +6,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <regex>
+
+#include "pipeline/params.hpp"
 
 namespace cambium {
 namespace {
+
+// Paths in a file start from its folder, those of the command line from the current one.
+std::filesystem::path absolute_file(const Yaml& name) {
+  static const std::regex in_file("(.*):[0-9]+:[0-9]+");
+  std::smatch match;
+  std::filesystem::path folder;
+  if (std::regex_match(name.where, match, in_file))
+    folder = std::filesystem::path(match[1].str()).parent_path();
+  return std::filesystem::absolute(folder / name.scalar).lexically_normal();
+}
 
 class Binder final : public ParamVisitor {
  public:
@@ -79,6 +93,12 @@ class Binder final : public ParamVisitor {
                std::find(c.choices.begin(), c.choices.end(), n.scalar) == c.choices.end()) {
       diagnostics_.add(n.where, fmt::format("'{}' cannot be '{}'{}", name, n.scalar,
                                             suggestion(n.scalar, c.choices)));
+    } else if (is_file(c) && !n.scalar.empty()) {
+      const auto file = absolute_file(n);
+      if (std::filesystem::is_regular_file(file))
+        v = file.string();
+      else
+        diagnostics_.add(n.where, fmt::format("'{}': there is no file '{}'", name, file.string()));
     } else {
       v = n.scalar;
     }
@@ -105,6 +125,7 @@ class Binder final : public ParamVisitor {
 
 std::string to_text(const Constraint& c) {
   if (!c.choices.empty()) return fmt::format("one of {}", fmt::join(c.choices, ", "));
+  if (is_file(c)) return "a file, or none";
   const bool low = std::isfinite(c.low) && c.low > std::numeric_limits<int>::min();
   const bool high = std::isfinite(c.high) && c.high < std::numeric_limits<int>::max();
   std::string text;

@@ -14,15 +14,18 @@ std::string describe_markdown(const Registered& c) {
   const auto component = c.create();
   const auto params = list_params(*component);
   if (params.empty()) return out + "It has no parameters.\n\n";
+  std::string more;
   out += "| parameter | default | allowed | meaning |\n|---|---|---|---|\n";
   for (const auto& p : params) {
     const std::string allowed = to_text(p.constraint);
     std::string value = p.value.dump();
-    if (!p.constraint.unit.empty()) value += " " + p.constraint.unit;
+    if (!p.constraint.unit.empty() && !is_file(p.constraint)) value += " " + p.constraint.unit;
     out += fmt::format("| `{}` | {} | {} | {} |\n", p.name, value,
                        allowed.empty() ? p.type : allowed, p.doc);
+    if (declares_more(p.constraint))
+      more += fmt::format("\nThe file that `{}` names declares further parameters.\n", p.name);
   }
-  return out + "\n";
+  return out + more + "\n";
 }
 
 std::string reference_markdown(const Registry& registry) {

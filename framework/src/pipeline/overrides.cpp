@@ -6,9 +6,9 @@
 #include <regex>
 
 namespace cambium {
+
 namespace {
 
-// The value keeps the option itself as its place, so that a message names what the user typed.
 void place_everywhere(Yaml& y, const std::string& where) {
   y.where = where;
   for (auto& e : y.list) place_everywhere(e, where);
@@ -16,6 +16,23 @@ void place_everywhere(Yaml& y, const std::string& where) {
 }
 
 }  // namespace
+
+std::optional<Setting> parse_setting(const std::string& text, const std::string& form,
+                                     Diagnostics& diagnostics) {
+  const std::string where = "--set " + text;
+  const auto split = text.find('=');
+  if (split == std::string::npos) {
+    diagnostics.add(where, "expected " + form + ", found no '='");
+    return std::nullopt;
+  }
+  Setting out;
+  out.name.type = Yaml::Type::scalar;
+  out.name.scalar = text.substr(0, split);
+  out.name.where = where;
+  out.value = parse_yaml(text.substr(split + 1), where, diagnostics);
+  place_everywhere(out.value, where);
+  return out;
+}
 
 void apply_override(Pipeline& pipeline, const Yaml& key, const Yaml& value,
                     Diagnostics& diagnostics) {
@@ -47,19 +64,8 @@ void apply_override(Pipeline& pipeline, const Yaml& key, const Yaml& value,
 }
 
 void apply_override(Pipeline& pipeline, const std::string& text, Diagnostics& diagnostics) {
-  const std::string where = "--set " + text;
-  const auto split = text.find('=');
-  if (split == std::string::npos) {
-    diagnostics.add(where, "expected VERB.PARAM=VALUE, found no '='");
-    return;
-  }
-  Yaml key;
-  key.type = Yaml::Type::scalar;
-  key.scalar = text.substr(0, split);
-  key.where = where;
-  Yaml value = parse_yaml(text.substr(split + 1), where, diagnostics);
-  place_everywhere(value, where);
-  apply_override(pipeline, key, value, diagnostics);
+  if (const auto s = parse_setting(text, "VERB.PARAM=VALUE", diagnostics))
+    apply_override(pipeline, s->name, s->value, diagnostics);
 }
 
 }  // namespace cambium

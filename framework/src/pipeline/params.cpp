@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "cambium/digest.hpp"
+#include "pipeline/script_files.hpp"
+
 namespace cambium {
 namespace {
 
@@ -51,6 +54,9 @@ std::string described(const ParamInfo& p) {
 
 }  // namespace
 
+bool is_file(const Constraint& c) { return c.unit == "file" || declares_more(c); }
+bool declares_more(const Constraint& c) { return c.unit == "script"; }
+
 std::vector<ParamInfo> list_params(Component& component) {
   Lister lister;
   component.params(lister);
@@ -64,9 +70,21 @@ std::string canonical_params(Component& component) {
   return map.dump();
 }
 
+std::string identifying_params(Component& component) {
+  nlohmann::ordered_json map = nlohmann::ordered_json::object();
+  for (const auto& p : list_params(component)) {
+    map[p.name] = p.value;
+    if (!is_file(p.constraint) || p.value == "") continue;
+    const auto file = p.value.get<std::string>();
+    map[p.name] = (declares_more(p.constraint) ? digest_script(file) : digest_file(file)).hex();
+  }
+  return map.dump();
+}
+
 nlohmann::ordered_json params_schema(Component& component) {
   nlohmann::ordered_json properties = nlohmann::ordered_json::object();
   const std::string list = "list of ";
+  bool more = false;
   for (const auto& p : list_params(component)) {
     nlohmann::ordered_json s;
     if (p.type.starts_with(list)) {
@@ -78,8 +96,9 @@ nlohmann::ordered_json params_schema(Component& component) {
     s["description"] = described(p);
     s["default"] = p.value;
     properties[p.name] = s;
+    more |= declares_more(p.constraint);
   }
-  return {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
+  return {{"type", "object"}, {"additionalProperties", more}, {"properties", properties}};
 }
 
 }  // namespace cambium

@@ -11,13 +11,13 @@ const std::vector<Verb>& verbs() {
       {"recognize",
        Kind::place_recognizer,
        true,
-       {"pairs", "min_path", "payload"},
+       {"pairs", "min_path", "max_distance", "payload"},
        "Proposes pairs of nodes that may have seen the same place"},
       {"register",
        Kind::registration,
        true,
-       {"payload"},
-       "Computes the transform of every candidate"},
+       {"payload", "loops"},
+       "Computes the transform of every candidate, or of every accepted loop anew"},
       {"verify", Kind::loop_verifier, false, {}, "Accepts or rejects registered loops"},
       {"optimize",
        Kind::solver,
@@ -63,7 +63,16 @@ void StepKeys::params(ParamVisitor& v) {
     v("min_path", min_path,
       "Within a mission, nodes closer than this along the path are neighbours, not loops",
       at_least(0, "m"));
+  if (has("max_distance"))
+    v("max_distance", max_distance,
+      "Missions whose paths GNSS or the map put farther apart than this are not compared; 0 = all "
+      "are",
+      at_least(0, "m"));
   if (has("payload")) v("payload", payload, "The stream of payloads that the step reads");
+  if (has("loops"))
+    v("loops", loops,
+      "Which loops: the candidates from their guess, or the accepted ones again from the map",
+      one_of({"candidates", "accepted"}));
   if (has("as")) v("as", as, "The stream that the filter writes; others keep reading theirs");
   if (has("label"))
     v("label", label, "Folder of an export (default: the plugin), prefix of metric names");

@@ -24,7 +24,9 @@ std::vector<std::string> verb_words();
 struct StepKeys : Component {
   std::string pairs = "all";
   double min_path = 20;
+  double max_distance = 100;
   std::string payload = "main";
+  std::string loops = "candidates";
   std::string as = "main";
   std::string label;
   std::string reference;

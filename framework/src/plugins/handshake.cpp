@@ -80,4 +80,12 @@ void check_descriptor(std::string_view descriptor, const std::string& library,
   check_size(size, sizeof plugin, library);
 }
 
+std::string abi_text(const HostAbi& host) {
+  std::string out = fmt::format("api {}.{}, plugins from {}.{} on\n", host.major, host.minor,
+                                host.major, host.minor_oldest);
+  for (const Field& field : fields)
+    out += fmt::format("{} {}\n", field.name, host.abi.*field.value);
+  return out;
+}
+
 }  // namespace cambium

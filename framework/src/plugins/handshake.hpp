@@ -19,4 +19,7 @@ struct HostAbi {
 void check_descriptor(std::string_view descriptor, const std::string& library,
                       const HostAbi& host = {});
 
+/// Both sides of the handshake must agree on these, one line each: "eigen_version 30400".
+std::string abi_text(const HostAbi& host = {});
+
 }  // namespace cambium

@@ -14,9 +14,12 @@ namespace cambium {
 /// the names of the new plugin, its class, and its kind.
 const std::map<std::string, std::string>& plugin_templates();
 
+enum class Language { cpp, python };
+
 /// Writes the folder of a new plugin and returns its files. Throws Error(config) when the name is
-/// none ([a-z][a-z0-9_]*) or the folder holds something.
-std::vector<std::filesystem::path> write_new_plugin(Kind kind, const std::string& name,
+/// none ([a-z][a-z0-9_]*), the folder holds something, or the kind is not for that language.
+std::vector<std::filesystem::path> write_new_plugin(Kind kind, Language language,
+                                                    const std::string& name,
                                                     const std::filesystem::path& folder);
 
 }  // namespace cambium
