@@ -36,7 +36,7 @@ void add_evaluate(CLI::App& app) {
       "Folder with <mission>/ground_truth.tum or <mission>.tum (default: each mission's "
       "own ground_truth.tum)");
   sub->add_option("--evaluator,-e", o->evaluation.evaluators,
-                  "An evaluator plugin; may be given several times (default: all)")
+                  "An evaluator plugin; may be given several times (default: all that run with their defaults)")
       ->allow_extra_args(false);
   sub->add_option("--set", o->evaluation.overrides, "One parameter: EVALUATOR.PARAM=VALUE")
       ->allow_extra_args(false);

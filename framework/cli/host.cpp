@@ -40,7 +40,9 @@ void EngineFlags::add_to(CLI::App& app) {
   app.add_option("--threads", threads, "Threads to use; 0 = all cores")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  app.add_option("--memory", memory, "Budget for payloads in memory, such as 500M or 4G")
+  app.add_option("--memory", memory,
+                 "Memory to stay within, such as 500M or 4G: beyond it payloads are not kept for "
+                 "later and work items run one at a time")
       ->capture_default_str();
   app.add_option("--cache", cache,
                  "Folder for results that later runs take up, or 'none' (default: CAMBIUM_CACHE, "

@@ -44,6 +44,7 @@ void add_validate(CLI::App& app);
 void add_plugins(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_inspect(CLI::App& app);
+void add_import(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_cache(CLI::App& app);
@@ -54,5 +55,9 @@ void add_plan(CLI::App& app);
 void add_merge(CLI::App& app);
 void add_split(CLI::App& app);
 void add_poses(CLI::App& app);
+void add_report(CLI::App& app);
+void add_query(CLI::App& app);
+void add_changes(CLI::App& app);
+void add_view(CLI::App& app);
 
 }  // namespace cambium::cli

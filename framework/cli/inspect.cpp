@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 
 #include "engine/inspection.hpp"
-#include "engine/resolve.hpp"
 #include "host.hpp"
 #include "inspect_report.hpp"
-#include "pipeline/params.hpp"
+#include "read_one.hpp"
 
 namespace cambium::cli {
 namespace {
@@ -18,50 +17,12 @@ struct Options {
   EngineFlags engine;
 };
 
-// Readers that can look closely into their files do so here: that is what the user came for.
-Yaml with_checks(Component& reader, Yaml params) {
-  const std::string name = "check_payloads";
-  for (const ParamInfo& info : list_params(reader)) {
-    if (info.name != name || params.find(name)) continue;
-    Yaml key, value;
-    params.type = Yaml::Type::map;
-    key.type = value.type = Yaml::Type::scalar;
-    key.scalar = name;
-    value.scalar = "true";
-    params.set(key, value);
-  }
-  return params;
-}
-
-std::string reader_for(const std::filesystem::path& mission, const Registry& registry) {
-  std::vector<std::string> accepting;
-  for (const auto& [key, registered] : registry.all()) {
-    if (key.first != Kind::mission_reader) continue;
-    const auto reader = registered.create();
-    if (dynamic_cast<const MissionReader&>(*reader).accepts(mission))
-      accepting.push_back(key.second);
-  }
-  if (accepting.size() == 1) return accepting[0];
-  throw Error(accepting.empty() ? ErrorCode::data : ErrorCode::config, mission.string(),
-              accepting.empty()
-                  ? "no reader knows it; expected a mission folder (with slam_pose_graph.g2o) or a "
-                    "pose graph (.g2o)"
-                  : fmt::format("more than one reader knows it; name one with --reader: {}",
-                                fmt::join(accepting, ", ")));
-}
-
 Mission read(const Options& o, const Registry& registry, const Engine& engine) {
-  if (!std::filesystem::exists(o.mission))
-    throw Error(ErrorCode::data, o.mission.string(), "does not exist");
-  const std::string name = o.reader.empty() ? reader_for(o.mission, registry) : o.reader;
-  const Registered* registered = registry.find(Kind::mission_reader, name);
-  Diagnostics diagnostics;
-  Yaml params = parse_yaml(o.params, "--params", diagnostics);
-  if (registered) params = with_checks(*registered->create(), params);
-  const auto reader =
-      configure(registry, Kind::mission_reader, name, "--reader", params, diagnostics);
-  diagnostics.throw_if_any();
-  return reader->as<MissionReader>().read(o.mission, *engine.context(Digest{}, 0));
+  // Readers that can look closely into their files do so here: that is what the user came for.
+  const auto check = [](Component& reader, Yaml& params) {
+    set_if_known(reader, params, "check_payloads", "true");
+  };
+  return read_one({o.mission, o.reader, o.params}, check, registry, engine);
 }
 
 void run(const Options& o) {

@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "engine/program.hpp"
 #include "host.hpp"
+#include "plugins/handshake.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
   CLI::App app("Fuses lidar SLAM missions from many robots into one map.");
-  app.set_version_flag("--version", "cambium " + cambium::program_version());
+  const bool with_abi = std::find(argv, argv + argc, std::string_view("--abi")) != argv + argc;
+  CLI::Option* version = app.set_version_flag("--version", [with_abi] {
+    const std::string name = "cambium " + cambium::program_version();
+    return with_abi ? name + "\n" + cambium::abi_text() : name;
+  });
+  bool abi = false;  // read from argv above: the version's text is asked for while they are parsed
+  app.add_flag("--abi", abi, "With --version: what a plugin must have been built with")
+      ->needs(version);
   app.require_subcommand(1);
   app.footer(
       "Example: cambium run pipelines/fuse_scans.yaml mission_a mission_b --out fused\n"
@@ -17,6 +28,7 @@ int run(int argc, char** argv) {
   add_run(app);
   add_validate(app);
   add_inspect(app);
+  add_import(app);
   add_evaluate(app);
   add_plugins(app);
   add_schema(app);
@@ -29,6 +41,10 @@ int run(int argc, char** argv) {
   add_merge(app);
   add_split(app);
   add_poses(app);
+  add_report(app);
+  add_query(app);
+  add_changes(app);
+  add_view(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -22,7 +22,7 @@ struct Options {
 constexpr std::size_t few = 3;
 
 void print_files(const std::vector<StepRecord>& steps, const std::filesystem::path& out) {
-  fmt::print("{:<14} {}\n", "report", (out / "report.json").string());
+  fmt::print("{:<14} {}\n", "report", (out / "report.html").string());
   fmt::print("{:<14} {}\n", "pose graph", (out / "fused.g2o").string());
   for (const auto& step : steps) {
     if (step.files.size() > few)

@@ -9,20 +9,11 @@
 #include "engine/engine.hpp"
 #include "engine/steps.hpp"
 #include "support/support.hpp"
+#include "support/trusting.hpp"
 
 namespace {
 
 using namespace cambium;
-
-struct Nothing final : Registration {
-  Alignment align(const Prepared&, const Prepared&, const SE3& guess,
-                  const Context&) const override {
-    Alignment a;
-    a.converged = true;
-    a.T_target_source = guess;
-    return a;
-  }
-};
 
 // A mission whose every node is a candidate to every other one, until there are enough.
 Known many_candidates(std::size_t count) {
@@ -64,7 +55,7 @@ int main(int argc, char** argv) {
   options.cache = folder / "cache";
   const Engine engine(options, progress);
   Registry registry;
-  registry.add<Nothing>("nothing", "");
+  registry.add<cambium::testing::TrustGuess>("nothing", "");
   Step step;
   step.verb = find_verb("register");
   step.plugin = "nothing";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <memory>
 #include <string>
 
 #include "cambium/fused.hpp"
 #include "cambium/plugin.hpp"
+#include "common/payloads.hpp"
 #include "common/voxel_set.hpp"
 #include "point_file.hpp"
 
@@ -52,14 +52,6 @@ struct Share {
   std::vector<std::uint32_t> missions;
 };
 
-std::vector<NodeRef> nodes_with_payload(const Atlas& atlas, const Share& share) {
-  std::vector<NodeRef> nodes;
-  for (const std::uint32_t m : share.missions)
-    for (std::uint32_t n = 0; n < atlas.missions[m].mission->nodes.size(); ++n)
-      if ((*atlas.payloads)[m][n]) nodes.push_back({m, n});
-  return nodes;
-}
-
 }  // namespace
 
 class CloudExporter final : public MapExporter {
@@ -74,7 +66,7 @@ class CloudExporter final : public MapExporter {
                                            const Context& context) const override {
     std::vector<std::filesystem::path> written;
     for (const Share& share : shares(atlas)) {
-      const auto nodes = nodes_with_payload(atlas, share);
+      const auto nodes = map_export::nodes_with_payload(atlas, share.missions);
       if (write_share(atlas, nodes, folder / share.name, context))
         written.push_back(folder / share.name);
       else
@@ -100,24 +92,17 @@ class CloudExporter final : public MapExporter {
   bool write_share(const Atlas& atlas, const std::vector<NodeRef>& nodes,
                    const std::filesystem::path& path, const Context& context) const {
     std::unique_ptr<MapFile> map;
-    // Clouds load side by side and enter the map in order: the first point of a voxel is kept.
-    const std::size_t batch = 2 * std::size_t(std::max(1, context.threads()));
-    for (std::size_t begin = 0; begin < nodes.size(); begin += batch) {
-      context.check_cancelled();
-      std::vector<Payload> loaded(std::min(batch, nodes.size() - begin));
-      context.parallel_for(loaded.size(),
-                           [&](std::size_t k) { loaded[k] = atlas.payload(nodes[begin + k]); });
-      for (std::size_t k = 0; k < loaded.size(); ++k) {
-        const auto& cloud = loaded[k].cloud;
-        if (!cloud || cloud->empty()) continue;
-        // The first cloud says whether there are intensities.
-        if (!map)
-          map = std::make_unique<MapFile>(
-              path, format_ == "ply" ? PointFile::Format::ply : PointFile::Format::pcd,
-              !cloud->intensity.empty(), voxel_size_);
-        map->add(*cloud, atlas.T_map_node(nodes[begin + k]));
-      }
-    }
+    // In the order of the nodes: the first point of a voxel is kept.
+    map_export::for_each_payload(atlas, nodes, context, [&](NodeRef node, const Payload& payload) {
+      const auto& cloud = payload.cloud;
+      if (!cloud || cloud->empty()) return;
+      // The first cloud says whether there are intensities.
+      if (!map)
+        map = std::make_unique<MapFile>(
+            path, format_ == "ply" ? PointFile::Format::ply : PointFile::Format::pcd,
+            !cloud->intensity.empty(), voxel_size_);
+      map->add(*cloud, atlas.T_map_node(node));
+    });
     if (map) map->commit(path.filename().string(), context);
     return map != nullptr;
   }

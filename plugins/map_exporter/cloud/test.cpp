@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "cambium/files.hpp"
+#include "support/plain_context.hpp"
 #include "support/support.hpp"
 
 namespace cambium::testing {
@@ -112,6 +113,14 @@ TEST(CloudExporter, AnyNumberOfThreadsWritesTheSameBytes) {
   const TemporaryFolder one, four;
   EXPECT_EQ(read_file(write(forest(), one.path(), "{}", 1)[0]),
             read_file(write(forest(), four.path(), "{}", 4)[0]));
+}
+
+TEST(CloudExporter, TellsHowFarItIs) {
+  const TemporaryFolder folder;
+  const CountingContext context;
+  component<MapExporter>("cloud")->write(forest(), folder.path(), context);
+  EXPECT_GT(context.expected, 1u);
+  EXPECT_EQ(context.done, context.expected);
 }
 
 TEST(CloudExporter, WritesOneFilePerIslandOrMission) {

@@ -1,86 +1,71 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tracks for GIS: GeoJSON (RFC 7946), WGS 84, one line a mission.
-#include <cstdio>
+// The map for GIS and web maps: GeoJSON (RFC 7946), WGS 84, one file a layer.
 #include <string>
 
 #include "cambium/files.hpp"
 #include "cambium/fused.hpp"
-#include "cambium/geodesy.hpp"
 #include "cambium/plugin.hpp"
+#include "common/geojson_text.hpp"
 
 namespace {
 
 using namespace cambium;
+using namespace map_export;
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) {
-      out += c;
-      continue;
-    }
-    char code[8];
-    std::snprintf(code, sizeof code, "\\u%04x", unsigned(c));
-    out += code;
+/// By island; warns of those that the globe has no place for.
+std::vector<std::optional<GeoReference>> georeferences(const Atlas& atlas, const Context& context) {
+  std::vector<std::optional<GeoReference>> out;
+  for (std::size_t i = 0; i < atlas.islands.size(); ++i) {
+    out.push_back(georeference(atlas, atlas.islands[i]));
+    if (!out.back())
+      context.warn("island " + std::to_string(i) + " (mission " +
+                   atlas.missions[atlas.islands[i].missions.front()].mission->name +
+                   ") has no georeference and is not in the GeoJSON; add a georeference step");
   }
-  return out + '"';
-}
-
-/// Longitude first, as the standard asks. 1e-9 deg are 0.1 mm.
-std::string position(const Geodetic& g) {
-  char text[96];
-  std::snprintf(text, sizeof text, "[%.9f,%.9f,%.3f]", g.longitude, g.latitude, g.altitude);
-  return text;
-}
-
-std::string track(const Atlas& atlas, std::uint32_t m, std::size_t island, const GeoReference& g) {
-  const MissionState& state = atlas.missions[m];
-  std::string line;
-  for (const SE3& T_map_node : *state.T_map_node) {
-    if (!line.empty()) line += ',';
-    line += position(map_to_geodetic(g, T_map_node.t));
-  }
-  const bool one = state.T_map_node->size() == 1;  // a line has at least two positions
-  std::string out = "{\"type\":\"Feature\",\"properties\":{\"mission\":";
-  out += quoted(state.mission->name);
-  out += ",\"platform\":" + std::to_string(state.mission->platform_id);
-  out += ",\"island\":" + std::to_string(island);
-  out += ",\"nodes\":" + std::to_string(state.T_map_node->size());
-  out += ",\"heights\":\"ellipsoidal, WGS 84\"},\"geometry\":{\"type\":";
-  out += one ? "\"Point\",\"coordinates\":" : "\"LineString\",\"coordinates\":[";
-  out += line;
-  out += one ? "}}" : "]}}";
   return out;
 }
 
 class GeoJson final : public MapExporter {
  public:
+  void params(ParamVisitor& v) override { options_.params(v); }
+
   std::vector<std::filesystem::path> write(const Atlas& atlas, const std::filesystem::path& folder,
                                            const Context& context) const override {
-    std::string features;
-    for (std::size_t i = 0; i < atlas.islands.size(); ++i) {
-      context.check_cancelled();
-      const auto g = georeference(atlas, atlas.islands[i]);
-      if (!g)
-        context.warn("island " + std::to_string(i) + " (mission " +
-                     atlas.missions[atlas.islands[i].missions.front()].mission->name +
-                     ") has no georeference and is not in the GeoJSON; add a georeference step");
-      else
-        for (const std::uint32_t m : atlas.islands[i].missions) {
-          features += features.empty() ? "\n" : ",\n";
-          features += track(atlas, m, i, *g);
-        }
+    const auto places = georeferences(atlas, context);
+    const auto layers = layers_of(atlas, options_, context);
+    context.expect(layers.size());
+    std::vector<std::filesystem::path> written;
+    for (const Layer& layer : layers) {
+      const auto path = folder / (layer.name + ".geojson");
+      if (write_layer(layer, places, path, context)) written.push_back(path);
+      context.advance();
     }
-    if (features.empty()) return {};
-    const auto path = folder / "tracks.geojson";
-    write_file(path, "{\"type\":\"FeatureCollection\",\"features\":[" + features + "\n]}\n");
-    return {path};
+    return written;
   }
+
+ private:
+  /// False, and no file, when no feature has a place on the globe.
+  static bool write_layer(const Layer& layer,
+                          const std::vector<std::optional<GeoReference>>& places,
+                          const std::filesystem::path& path, const Context& context) {
+    std::string features;
+    for (const Feature& feature : layer.features) {
+      context.check_cancelled();
+      if (!places[feature.island]) continue;
+      features += features.empty() ? "\n" : ",\n";
+      features += feature_text(layer, feature, *places[feature.island]);
+    }
+    if (features.empty()) return false;
+    write_file(path, feature_collection(features));
+    return true;
+  }
+
+  LayerOptions options_;
 };
 
 }  // namespace
 
 CAMBIUM_PLUGIN("geojson", "0.1.0") {
-  registry.add<GeoJson>("geojson", "Tracks as GeoJSON (WGS 84), for GIS and web maps");
+  registry.add<GeoJson>("geojson",
+                        "Tracks, nodes, loops and stems as GeoJSON (WGS 84), for GIS and web maps");
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <sstream>
+
 #include "cambium/files.hpp"
 #include "cambium/fused.hpp"
 #include "cambium/plugin.hpp"
 #include "kml_writer.hpp"
+#include "zip_file.hpp"
 
 namespace kml {
 
@@ -15,15 +18,18 @@ class KmlExporter final : public MapExporter {
       "clampToGround drapes the tracks over the viewer's terrain, absolute uses their altitudes",
       one_of({"clampToGround", "absolute"}));
     v("loops", loops_, "Draw accepted loops as lines");
+    v("time_slider", time_slider_,
+      "Tracks know the time of each node (gx:Track), for viewers with a time slider");
+    v("format", format_, "kmz: the same in a ZIP archive, one file to send",
+      one_of({"kml", "kmz"}));
   }
 
   std::vector<std::filesystem::path> write(const Atlas& atlas, const std::filesystem::path& folder,
                                            const Context& context) const override {
-    const auto path = folder / "tracks.kml";
-    AtomicFile file(path);
-    std::ostream& out = file.stream();
+    std::ostringstream out;
     out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-           "<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document><name>Cambium</name>\n";
+           "<kml xmlns=\"http://www.opengis.net/kml/2.2\" "
+           "xmlns:gx=\"http://www.google.com/kml/ext/2.2\"><Document><name>Cambium</name>\n";
     write_styles(out);
     std::size_t islands = 0;
     for (std::size_t i = 0; i < atlas.islands.size(); ++i) {
@@ -32,7 +38,8 @@ class KmlExporter final : public MapExporter {
     }
     out << "</Document></kml>\n";
     if (islands == 0) return {};
-    file.commit();
+    const auto path = folder / ("tracks." + format_);
+    write_file(path, format_ == "kmz" ? zip_of("doc.kml", out.str()) : out.str());
     return {path};
   }
 
@@ -50,7 +57,8 @@ class KmlExporter final : public MapExporter {
     }
     out << "<Folder><name>island " << i << "</name>\n";
     Writer writer(out, atlas, *tie, altitude_mode_);
-    for (const std::uint32_t m : island.missions) writer.track(m);
+    for (const std::uint32_t m : island.missions)
+      if (!time_slider_ || !writer.moving_track(m)) writer.track(m);
     for (const Loop& loop : atlas.loops)
       if (loops_ && loop.state == LoopState::accepted &&
           atlas.missions[loop.tail.mission].island == i)
@@ -61,6 +69,8 @@ class KmlExporter final : public MapExporter {
 
   std::string altitude_mode_ = "clampToGround";
   bool loops_ = true;
+  bool time_slider_ = false;
+  std::string format_ = "kml";
 };
 
 }  // namespace kml

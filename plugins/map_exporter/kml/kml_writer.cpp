@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cambium/geodesy.hpp"
+#include "common/iso_time.hpp"
 
 namespace kml {
 namespace {
@@ -52,6 +53,29 @@ void Writer::track(std::uint32_t mission) {
   begin_line(state.mission->name, "track_" + std::to_string(mission % track_colours.size()));
   for (const SE3& T_map_node : *state.T_map_node) point(T_map_node.t);
   end_line();
+}
+
+bool Writer::moving_track(std::uint32_t mission) {
+  const MissionState& state = atlas_.missions[mission];
+  std::string times, places;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < state.T_map_node->size(); ++i) {
+    const auto& stamp = state.mission->nodes[i].stamp;
+    if (!stamp) continue;
+    const Geodetic g = map_to_geodetic(georeference_, (*state.T_map_node)[i].t);
+    char text[112];
+    std::snprintf(text, sizeof text, "<gx:coord>%.9f %.9f %.3f</gx:coord>\n", g.longitude,
+                  g.latitude, g.altitude);
+    times += "<when>" + map_export::iso_time(*stamp) + "</when>\n";
+    places += text;
+    ++count;
+  }
+  if (count < 2) return false;
+  out_ << "<Placemark><name>" << escaped(state.mission->name) << "</name><styleUrl>#track_"
+       << mission % track_colours.size() << "</styleUrl><gx:Track><altitudeMode>" << altitude_mode_
+       << "</altitudeMode>\n"
+       << times << places << "</gx:Track></Placemark>\n";
+  return true;
 }
 
 void Writer::loop(const Loop& loop) {

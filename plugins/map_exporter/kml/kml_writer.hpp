@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OGC KML 2.2, as much of it as tracks need.
+// OGC KML 2.2, as much of it as tracks need; moving tracks are Google's extension gx:Track.
 #pragma once
 #include <ostream>
 #include <string>
@@ -20,6 +20,8 @@ class Writer {
       : out_(out), atlas_(atlas), georeference_(georeference), altitude_mode_(altitude_mode) {}
 
   void track(std::uint32_t mission);
+  /// The nodes that have stamps, each with its time; false, and nothing written, below two.
+  bool moving_track(std::uint32_t mission);
   void loop(const cambium::Loop& loop);
 
  private:

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <boost/crc.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <sstream>
 
+#include "cambium/files.hpp"
 #include "cambium/geodesy.hpp"
 #include "support/support.hpp"
 
@@ -64,6 +66,51 @@ TEST(KmlExporter, CoordinatesLeadBackToTheMap) {
     points.push_back(georeference.T_map_enu * to_enu({61.2, 25.1, 130}, g));
   ASSERT_EQ(points.size(), 3u);
   EXPECT_LT((points[2] - Vec3(200, 50, 5)).norm(), 1e-3);
+}
+
+TEST(KmlExporter, TracksMoveWithTime) {
+  const TemporaryFolder folder;
+  Atlas atlas = two_islands();
+  Mission timeless = *atlas.missions[1].mission;
+  for (Node& node : timeless.nodes) node.stamp.reset();
+  atlas.missions[1].mission = std::make_shared<const Mission>(timeless);
+  const auto found =
+      placemarks(write(atlas, folder.path(), "{time_slider: true, loops: false}")[0]);
+  ASSERT_EQ(found.size(), 2u);
+  std::vector<std::string> times, places;
+  for (const auto& [tag, value] : found[0].get_child("gx:Track")) {
+    if (tag == "when") times.push_back(value.data());
+    if (tag == "gx:coord") places.push_back(value.data());
+  }
+  EXPECT_EQ(times, (std::vector<std::string>{"1970-01-01T00:00:00.000Z", "1970-01-01T00:00:01.000Z",
+                                             "1970-01-01T00:00:02.000Z"}));
+  ASSERT_EQ(places.size(), 3u);
+  std::istringstream text(places[2]);
+  Geodetic g;
+  ASSERT_TRUE(text >> g.longitude >> g.latitude >> g.altitude);
+  EXPECT_LT((georeference.T_map_enu * to_enu({61.2, 25.1, 130}, g) - Vec3(200, 50, 5)).norm(),
+            1e-3);
+  EXPECT_TRUE(found[1].get_child_optional("LineString"));
+}
+
+// The figures of the ZIP format, and a checksum computed apart.
+TEST(KmlExporter, AKmzIsTheKmlInAnArchive) {
+  const TemporaryFolder one, other;
+  const std::string kml = read_file(write(two_islands(), one.path())[0]);
+  const auto files = write(two_islands(), other.path(), "{format: kmz}");
+  EXPECT_EQ(files.at(0), other / "tracks.kmz");
+  const std::string zip = read_file(files[0]);
+  EXPECT_EQ(zip.substr(0, 4), std::string("PK\3\4"));
+  EXPECT_EQ(zip.substr(30, 7), "doc.kml");
+  EXPECT_EQ(zip.substr(37, kml.size()), kml);
+  EXPECT_EQ(zip.substr(37 + kml.size(), 4), std::string("PK\1\2"));
+  EXPECT_EQ(zip.substr(zip.size() - 22, 4), std::string("PK\5\6"));
+  boost::crc_32_type crc;
+  crc.process_bytes(kml.data(), kml.size());
+  EXPECT_EQ(crc.checksum(), std::uint32_t(static_cast<unsigned char>(zip[14])) |
+                                std::uint32_t(static_cast<unsigned char>(zip[15])) << 8 |
+                                std::uint32_t(static_cast<unsigned char>(zip[16])) << 16 |
+                                std::uint32_t(static_cast<unsigned char>(zip[17])) << 24);
 }
 
 TEST(KmlExporter, WritesNothingWithoutAGeoreference) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Poses and clouds in any coordinate reference system, every point projected by itself.
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "cambium/dialect.hpp"
 #include "cambium/files.hpp"
 #include "cambium/fused.hpp"
 #include "cambium/plugin.hpp"
+#include "cambium/projection.hpp"
+#include "common/crs.hpp"
+#include "common/payloads.hpp"
 #include "common/voxel_set.hpp"
 #include "grid_cloud.hpp"
-#include "projection.hpp"
 
 namespace projected {
 namespace {
@@ -29,19 +29,6 @@ SE3 in_grid(const Projection& to_grid, const GeoReference& g, const SE3& T_map_b
         (2 * step);
   SE3 T_grid_map = SE3::from_matrix(T);  // the nearest rotation
   return {T_grid_map.q * T_map_base.q, at(T_map_base.t)};
-}
-
-/// Of the first georeferenced island; of the null point when there is none (nothing is written
-/// then).
-std::string utm_zone(const Atlas& atlas) {
-  GeoReference at;
-  for (const Island& island : atlas.islands)
-    if (const auto g = georeference(atlas, island)) {
-      at = *g;
-      break;
-    }
-  const int zone = std::clamp(int(std::floor((at.longitude + 180) / 6)) + 1, 1, 60);
-  return "EPSG:" + std::to_string((at.latitude < 0 ? 32700 : 32600) + zone);
 }
 
 std::string pose_rows(const Projection& to_grid, const GeoReference& g, const MissionState& state) {
@@ -66,16 +53,15 @@ std::string pose_rows(const Projection& to_grid, const GeoReference& g, const Mi
 class Projected final : public MapExporter {
  public:
   void params(ParamVisitor& v) override {
-    v("crs", crs_,
-      "Coordinate reference system, as PROJ names it: EPSG:32635, or EPSG:32635+5773 for heights "
-      "above the geoid EGM96; utm: the zone of the first island's reference point");
+    v("crs", crs_, map_export::crs_doc);
     v("clouds", clouds_, "Write the clouds, too");
     v("voxel_size", voxel_size_, "One point is kept in each voxel of this width", above(0, "m"));
   }
 
   std::vector<std::filesystem::path> write(const Atlas& atlas, const std::filesystem::path& folder,
                                            const Context& context) const override {
-    const Projection to_grid(crs_ == "utm" ? utm_zone(atlas) : crs_);
+    const Projection to_grid(map_export::crs_of(crs_, atlas));
+    to_grid.require_plane();
     std::vector<std::filesystem::path> written;
     for (std::size_t i = 0; i < atlas.islands.size(); ++i) {
       const auto g = georeference(atlas, atlas.islands[i]);
@@ -113,14 +99,12 @@ class Projected final : public MapExporter {
                    const Context& context) const {
     std::optional<GridCloud> file;
     map_export::VoxelSet taken(voxel_size_);
-    for (const std::uint32_t m : island.missions)
-      for (std::uint32_t n = 0; n < atlas.missions[m].mission->nodes.size(); ++n) {
-        context.check_cancelled();
-        const Payload payload = atlas.payload({m, n});
-        if (!payload.cloud || payload.cloud->empty()) continue;
-        if (!file) file.emplace(path, remarks(to_grid));
-        add(*payload.cloud, atlas.T_map_node({m, n}), g, to_grid, taken, *file);
-      }
+    const auto nodes = map_export::nodes_with_payload(atlas, island.missions);
+    map_export::for_each_payload(atlas, nodes, context, [&](NodeRef node, const Payload& payload) {
+      if (!payload.cloud || payload.cloud->empty()) return;
+      if (!file) file.emplace(path, remarks(to_grid));
+      add(*payload.cloud, atlas.T_map_node(node), g, to_grid, taken, *file);
+    });
     if (file) file->commit();
     return file.has_value();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cambium/files.hpp"
-#include "cambium/fused.hpp"
 #include "cambium/plugin.hpp"
+#include "common/stamped_rows.hpp"
 
 namespace {
 
@@ -14,11 +14,7 @@ class TumExporter final : public MapExporter {
     std::vector<std::filesystem::path> written;
     for (const MissionState& state : atlas.missions) {
       context.check_cancelled();
-      const auto poses = trajectory(state);
-      const std::size_t without = state.mission->nodes.size() - poses.size();
-      if (without > 0)
-        context.warn(state.mission->name + ": " + std::to_string(without) +
-                     " nodes have no stamp, so the TUM file has no row for them");
+      const auto poses = map_export::stamped_rows(state, "the TUM file", context);
       written.push_back(folder / (state.mission->name + ".tum"));
       write_file(written.back(), format_tum(poses));
     }

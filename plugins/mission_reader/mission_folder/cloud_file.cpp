@@ -12,6 +12,7 @@
 
 #include "cambium/error.hpp"
 #include "cloud_header.hpp"
+#include "las_cloud.hpp"
 
 namespace cambium {
 namespace {
@@ -56,6 +57,12 @@ float value_of(const Field& field, const std::uint8_t* point) {
   }
 }
 
+/// Nothing, where the field holds no code.
+std::uint8_t label_of(const Field& field, const std::uint8_t* point) {
+  const float value = value_of(field, point);
+  return value >= 0 && value <= 255 ? std::uint8_t(value) : 0;
+}
+
 /// Three fields that belong together, or nothing when one is missing.
 using Triple = std::array<const Field*, 3>;
 std::optional<Triple> normal_fields(const pcl::PCLPointCloud2& blob) {
@@ -81,11 +88,13 @@ LoadedCloud from_pcl(const pcl::PCLPointCloud2& blob, const std::filesystem::pat
       throw Error(ErrorCode::data, path.string(), "expected x, y and z as float or double");
   const auto normals = normal_fields(blob);
   const Field* intensity = find_field(blob, {"intensity", "scalar_Intensity", "scalar_intensity"});
+  const Field* label = find_field(blob, {"label", "classification", "scalar_Classification"});
   LoadedCloud out;
   const std::size_t points = std::size_t(blob.width) * blob.height;
   out.cloud.xyz.reserve(3 * points);
   if (normals) out.cloud.normals.reserve(3 * points);
   if (intensity) out.cloud.intensity.reserve(points);
+  if (label) out.cloud.label.reserve(points);
   for (std::size_t i = 0; i < points; ++i) {
     const std::uint8_t* point = blob.data.data() + i * blob.point_step;
     const float p[3] = {value_of(*xyz[0], point), value_of(*xyz[1], point),
@@ -97,6 +106,7 @@ LoadedCloud from_pcl(const pcl::PCLPointCloud2& blob, const std::filesystem::pat
     out.cloud.xyz.insert(out.cloud.xyz.end(), p, p + 3);
     if (normals) append_normal(*normals, point, out.cloud.normals);
     if (intensity) out.cloud.intensity.push_back(value_of(*intensity, point));
+    if (label) out.cloud.label.push_back(label_of(*label, point));
   }
   return out;
 }
@@ -116,6 +126,7 @@ SE3 viewpoint_pose(const Eigen::Vector4f& origin, const Eigen::Quaternionf& orie
 }  // namespace
 
 LoadedCloud load_cloud(const std::filesystem::path& path, bool apply_viewpoint) {
+  if (path.extension() == ".las" || path.extension() == ".laz") return load_las(path);
   // PCL prints what it dislikes; libraries of Cambium do not. What fails is thrown below.
   static const bool quiet = (pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS), true);
   static_cast<void>(quiet);

@@ -5,21 +5,22 @@
 #include <mutex>
 
 #include "cambium/payload.hpp"
+#include "payload_check.hpp"
 
 namespace cambium {
 
 class FilePayload final : public PayloadSource {
  public:
-  /// Either path may be empty: the node has no such payload.
-  FilePayload(std::filesystem::path cloud, std::filesystem::path trees, bool apply_viewpoint)
-      : cloud_(std::move(cloud)), trees_(std::move(trees)), apply_viewpoint_(apply_viewpoint) {}
+  /// Any path may be empty: the node has no such payload.
+  FilePayload(PayloadPaths paths, bool apply_viewpoint)
+      : paths_(std::move(paths)), apply_viewpoint_(apply_viewpoint) {}
 
   Payload load() const override;
   Digest digest() const override;  ///< of the files, computed when first asked for
-  std::string where() const override { return (cloud_.empty() ? trees_ : cloud_).string(); }
+  std::string where() const override;
 
  private:
-  std::filesystem::path cloud_, trees_;
+  PayloadPaths paths_;
   bool apply_viewpoint_;
   mutable std::once_flag digest_once_;
   mutable Digest digest_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "csv_table.hpp"
+#include "common/csv_table.hpp"
 #include "fix_quality.hpp"
 
 namespace cambium {

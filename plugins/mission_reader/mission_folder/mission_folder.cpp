@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* image_folder = "individual_images";
 constexpr const char* graph_names[] = {"slam_pose_graph.g2o", "slam_pose_graph.slam"};
 
 class MissionFolder final : public MissionReader {
@@ -97,15 +98,20 @@ class MissionFolder final : public MissionReader {
     if (fs::exists(mission.folder / tree_folder_))
       trees =
           find_stamped_files(mission.folder / tree_folder_, "trees", {".csv"}, mission.warnings);
+    StampedFiles images;  // not every node has one
+    if (fs::exists(mission.folder / image_folder))
+      images = find_stamped_files(mission.folder / image_folder, "image",
+                                  {".jpg", ".jpeg", ".png", ".webp"}, mission.warnings);
     if (!clouds.folder.empty()) report_mismatch(mission, clouds, "cloud", mission.warnings);
     if (!trees.folder.empty()) report_mismatch(mission, trees, "tree table", mission.warnings);
     const std::set<Stamp> shared = shared_stamps(mission, mission.warnings);
     std::vector<PayloadPaths> paths;
     for (Node& node : mission.nodes) {
       if (!node.stamp || shared.contains(*node.stamp)) continue;
-      const PayloadPaths p{file_at(clouds, *node.stamp), file_at(trees, *node.stamp)};
-      if (p.cloud.empty() && p.trees.empty()) continue;
-      node.payload = std::make_shared<FilePayload>(p.cloud, p.trees, apply_viewpoint_);
+      const PayloadPaths p{file_at(clouds, *node.stamp), file_at(trees, *node.stamp),
+                           file_at(images, *node.stamp)};
+      if (p.cloud.empty() && p.trees.empty() && p.image.empty()) continue;
+      node.payload = std::make_shared<FilePayload>(p, apply_viewpoint_);
       paths.push_back(p);
     }
     if (check_payloads_) check_payloads(paths, apply_viewpoint_, context, mission.warnings);
@@ -114,7 +120,7 @@ class MissionFolder final : public MissionReader {
   StampedFiles clouds_of(Mission& mission) const {
     for (const std::string& name : cloud_folders_)
       if (fs::exists(mission.folder / name))
-        return find_stamped_files(mission.folder / name, "cloud", {".pcd", ".ply"},
+        return find_stamped_files(mission.folder / name, "cloud", {".pcd", ".ply", ".las", ".laz"},
                                   mission.warnings);
     return {};
   }

@@ -10,7 +10,7 @@
 namespace cambium {
 
 struct PayloadPaths {
-  std::filesystem::path cloud, trees;  ///< empty: none
+  std::filesystem::path cloud, trees, image;  ///< empty: none
 };
 
 void check_payloads(const std::vector<PayloadPaths>& nodes, bool apply_viewpoint,

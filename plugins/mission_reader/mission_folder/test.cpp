@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mission folders through the real loader.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -99,6 +100,23 @@ TEST(MissionFolder, GraphPayloadsAndNames) {
   EXPECT_TRUE(contains(m.warnings, "1 of 2 nodes have no cloud: 11_0"));
 }
 
+TEST(MissionFolder, PicturesAreThePayloadOfTheirNode) {
+  MissionOnDisk disk;
+  std::filesystem::create_directory(disk.path() / "individual_images");
+  write_file(disk.path() / "individual_images/image_10_000000005.jpg", "a picture");
+  write_file(disk.path() / "individual_images/image_x.jpg", "of no stamp");
+  const Mission mission = disk.read();
+  ASSERT_TRUE(mission.nodes[0].payload);
+  const Payload payload = mission.nodes[0].payload->load();
+  EXPECT_FALSE(payload.cloud);
+  ASSERT_TRUE(payload.images);
+  EXPECT_EQ(read_file(payload.images->at(0).file), "a picture");
+  EXPECT_NE(mission.nodes[0].payload->where().find("image_10"), std::string::npos);
+  const Digest before = mission.nodes[0].payload->digest();
+  write_file(disk.path() / "individual_images/image_10_000000005.jpg", "another picture");
+  EXPECT_NE(before, disk.read().nodes[0].payload->digest());
+}
+
 TEST(MissionFolder, TrailingSlashNamesTheSameMission) {
   MissionOnDisk disk;
   const auto reader = testing::component<MissionReader>("mission_folder");
@@ -136,6 +154,14 @@ TEST(MissionFolder, OtherFieldsAndTypes) {
   EXPECT_EQ(c.xyz, (std::vector<float>{1, 2, 3}));
   EXPECT_EQ(c.intensity, std::vector<float>{777});
   EXPECT_EQ(c.normals, (std::vector<float>{0, 0, 1}));
+}
+
+TEST(MissionFolder, LabelsAreWholeNumbersOfAByte) {
+  const std::string head =
+      "VERSION 0.7\nFIELDS x y z label\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 3\nHEIGHT 1\n"
+      "POINTS 3\nDATA ascii\n";
+  EXPECT_EQ(pcd(head + "1 2 3 64\nnan 2 3 2\n4 5 6 700\n").label, (std::vector<std::uint8_t>{64, 0}));
+  EXPECT_TRUE(pcd(pcd_head + "DATA ascii\n1 2 3\n-4.5 5 6\n").label.empty());
 }
 
 TEST(MissionFolder, NotFinitePointsAreRemovedAndCounted) {
@@ -329,6 +355,72 @@ TEST(MissionFolder, CovarianceColumnsAndOrderOfFixes) {
   ASSERT_EQ(m.fixes.size(), 2u);
   EXPECT_EQ(m.fixes[0].stamp, (Stamp{11, 7}));
   EXPECT_EQ(m.fixes[1].covariance, (Mat3() << 4, 1, 0.5, 1, 9, 0.25, 0.5, 0.25, 16).finished());
+}
+
+/// A LAS file of version 1.2, point format 0, with these points in centimetres.
+std::string las_file(const std::vector<std::array<std::int32_t, 3>>& points) {
+  std::string out(227, '\0');
+  const auto put = [&](std::size_t at, auto value) {
+    std::memcpy(out.data() + at, &value, sizeof value);
+  };
+  out.replace(0, 4, "LASF");
+  out[24] = 1, out[25] = 2;
+  put(94, std::uint16_t(227));
+  put(96, std::uint32_t(227));
+  put(105, std::uint16_t(20));
+  put(107, std::uint32_t(points.size()));
+  for (std::size_t k = 0; k < 3; ++k) put(131 + 8 * k, 0.01), put(155 + 8 * k, 100.0);
+  for (const auto& p : points) {
+    out.resize(out.size() + 20, '\0');
+    std::memcpy(out.data() + out.size() - 20, p.data(), 12);
+    out[out.size() - 8] = 42;
+  }
+  return out;
+}
+
+TEST(MissionFolder, LasClouds) {
+  MissionOnDisk disk;
+  disk.cloud("cloud_10_000000005.las", las_file({{-9900, -10050, 25}, {0, 1, 2}}));
+  const auto cloud = disk.read().nodes[0].payload->load().cloud;
+  ASSERT_EQ(cloud->size(), 2u);
+  EXPECT_EQ(cloud->xyz, (std::vector<float>{1, -0.5, 100.25, 100, 100.01f, 100.02f}));
+  EXPECT_EQ(cloud->intensity, (std::vector<float>{42, 42}));
+}
+
+TEST(MissionFolder, BadLasCloudsSayWhatIsWrong) {
+  const auto refusal = [](std::string content) -> std::string {
+    MissionOnDisk disk;
+    disk.cloud("cloud_10_000000005.las", content);
+    try {
+      disk.read().nodes[0].payload->load();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto expect = [&](const std::string& content, const std::string& part) {
+    const std::string message = refusal(content);
+    EXPECT_NE(message.find("cloud_10_000000005.las"), message.npos) << message;
+    EXPECT_NE(message.find(part), message.npos) << message;
+  };
+  const std::string good = las_file({{1, 2, 3}, {4, 5, 6}});
+  const auto with = [&](std::size_t at, auto value) {
+    std::string out = good;
+    std::memcpy(out.data() + at, &value, sizeof value);
+    return out;
+  };
+  expect("", "is no LAS file");
+  expect(good.substr(0, 100), "is no LAS file");
+  expect(good.substr(0, good.size() - 1), "promises 2 points, the file holds 1");
+  expect(with(107, std::uint32_t(7)), "promises 7 points, the file holds 2");
+  expect(with(96, std::uint32_t(100000)), "the file holds 0");
+  expect(with(25, char(5)), "version 1.5");
+  expect(with(25, char(4)), "ends within its header");
+  expect(with(104, char(0x80)), "compressed (LAZ)");
+  expect(with(104, char(11)), "point format 11");
+  expect(with(104, char(1)), "expected 28 or more");
+  expect(with(131, 0.0), "scale");
+  expect(with(155, 6.8e6), "base frame");
 }
 
 /// `$`, the text, `*` and its checksum.

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "csv_table.hpp"
+#include "common/csv_table.hpp"
 
 namespace cambium {
 namespace {

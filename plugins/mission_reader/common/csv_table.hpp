@@ -16,6 +16,7 @@ class CsvTable {
   /// Throws Error(data, file:line) unless every row has as many fields as the header.
   explicit CsvTable(const std::filesystem::path& path);
 
+  const std::vector<std::string>& columns() const { return header_; }  ///< in their order
   std::size_t rows() const { return rows_.size(); }
   /// Throws when a column is unknown: a misspelt one would be ignored otherwise.
   void allow_only(const std::vector<std::string>& columns) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "csv_table.hpp"
+#include "common/csv_table.hpp"
 
 #include <algorithm>
 #include <charconv>

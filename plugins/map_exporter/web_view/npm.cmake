@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# npm_packages(SOURCE WORK WHY): what SOURCE/package-lock.json names goes into WORK/node_modules, in the
+# build tree, once for each lock file. WHY is empty, or says what is missing.
+function(npm_packages source work why)
+  set(${why} "" PARENT_SCOPE)
+  find_program(NODE node)
+  find_program(NPM npm)
+  if(NOT NODE OR NOT NPM)
+    set(${why} "no Node.js with npm (./bootstrap view installs them)" PARENT_SCOPE)
+    return()
+  endif()
+  file(SHA256 ${source}/package-lock.json lock)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source}/package-lock.json)
+  if(EXISTS ${work}/${lock}.installed)
+    return()
+  endif()
+  file(REMOVE_RECURSE ${work})
+  file(COPY ${source}/package.json ${source}/package-lock.json DESTINATION ${work})
+  execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund WORKING_DIRECTORY ${work}
+                  RESULT_VARIABLE failed OUTPUT_VARIABLE words ERROR_VARIABLE words)
+  if(failed)
+    string(STRIP "${words}" words)
+    set(${why} "'npm ci' failed in ${work}: ${words}" PARENT_SCOPE)
+    return()
+  endif()
+  file(TOUCH ${work}/${lock}.installed)
+endfunction()
