@@ -53,7 +53,11 @@ class Study:
         return done.stdout
 
     def files(self, out):
-        """Content of the files of a run folder by name, without the times in report.json."""
+        """Content of the files of a run folder by name, without what tells times: report.json,
+        and the part "run" at the end of report.html."""
         folder = self.folder / out
-        return {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*"))
-                if f.is_file() and f.name != "report.json"}
+        files = {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*"))
+                 if f.is_file() and f.name != "report.json"}
+        page, mark, _ = files["report.html"].partition(b'id="run"')
+        assert mark, "report.html has no part that tells times"
+        return files | {"report.html": page}

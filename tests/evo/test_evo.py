@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ATE and RPE against an independent implementation: the PyPI package evo.
+"""ATE, RPE and formats of trajectories against an independent implementation: the PyPI package evo.
 
 test_evo.py CAMBIUM FOLDER: simulates two missions, measures them with `cambium run` and with evo.
 """
@@ -31,6 +31,8 @@ missions:
 PIPELINE = f"""
 version: 1
 steps:
+  - export: euroc
+  - export: kitti
   - evaluate: ate
     params: {{alignment: se3}}
   - evaluate: ate
@@ -94,11 +96,24 @@ def of_evo(folder, mission):
     return figures
 
 
+def other_formats_hold_the_same_poses(folder, mission):
+    """EuRoC's table and KITTI's matrices, as evo reads them, against the TUM file of the run."""
+    tum = file_interface.read_tum_trajectory_file(folder / "out" / f"{mission}.tum")
+    table = folder / "out" / "euroc" / mission / "mav0" / "state_groundtruth_estimate0" / "data.csv"
+    euroc = file_interface.read_euroc_csv_trajectory(table)
+    kitti = file_interface.read_kitti_poses_file(folder / "out" / "kitti" / f"{mission}.kitti")
+    assert euroc.num_poses == kitti.num_poses == tum.num_poses > 10
+    assert np.allclose(euroc.timestamps, tum.timestamps, atol=1e-6)  # doubles: 0.2 microseconds
+    for other in (euroc, kitti):
+        assert np.allclose(other.poses_se3, tum.poses_se3, atol=1e-9)
+
+
 def main():
     cambium, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
     ours, wrong = of_cambium(cambium, folder), 0
     for mission in ("mission_a", "mission_b"):
+        other_formats_hold_the_same_poses(folder, mission)
         for name, value in of_evo(folder, mission).items():
             agree = abs(ours[name] - value) < 1e-6 and value > 1e-3
             wrong += not agree

@@ -17,4 +17,12 @@ class PlainContext : public Context {
   }
 };
 
+/// Counts the parts that an exporter speaks of.
+class CountingContext : public PlainContext {
+ public:
+  void expect(std::size_t parts) const override { expected += parts; }
+  void advance() const override { ++done; }
+  mutable std::size_t expected = 0, done = 0;
+};
+
 }  // namespace cambium::testing

@@ -57,6 +57,13 @@ struct Island {
   std::vector<NodePosition> positions = {};  ///< made with the georeference, for the optimisation
 };
 
+/// Where an `optimize` step left the missions.
+struct Stage {
+  std::string step;  ///< the step's plugin
+  std::vector<std::shared_ptr<const std::vector<SE3>>> T_map_node;  ///< one list a mission
+  std::vector<std::uint32_t> islands;  ///< of each mission then: its poses are in that one's frame
+};
+
 using PayloadSources = std::vector<std::vector<std::shared_ptr<const PayloadSource>>>;
 
 struct Atlas {
@@ -64,6 +71,7 @@ struct Atlas {
   std::vector<Loop> loops;             ///< ordered by (tail, head)
   std::vector<Island> islands;
   std::shared_ptr<const PayloadSources> payloads;  ///< [mission][node], after the filters
+  std::vector<Stage> stages = {};                  ///< one an optimisation so far; for looking back
 
   const Mission& mission(NodeRef n) const { return *missions[n.mission].mission; }
   const Node& node(NodeRef n) const { return mission(n).nodes[n.node]; }

@@ -25,6 +25,13 @@ class Context {
   virtual void parallel_for(std::size_t count,
                             const std::function<void(std::size_t)>& body) const = 0;
 
+  /// For a component that runs alone (an exporter) and takes long: so many parts of its work come
+  /// next; it may say so again for another row of parts.
+  virtual void expect(std::size_t) const {}
+  /// One part is done: the user sees it, and payloads that are kept for later make room when the
+  /// process is above its memory budget. Call it while holding as little as possible.
+  virtual void advance() const {}
+
   void debug(std::string_view m) const { log(LogLevel::debug, m); }
   void info(std::string_view m) const { log(LogLevel::info, m); }
   void warn(std::string_view m) const { log(LogLevel::warning, m); }

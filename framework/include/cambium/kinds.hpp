@@ -158,6 +158,9 @@ class MapExporter : public Component {
   virtual std::vector<std::filesystem::path> write(const Atlas& atlas,
                                                    const std::filesystem::path& folder,
                                                    const Context& context) const = 0;
+  /// The file below the folder that a browser opens first ("index.html") when the export is a page;
+  /// empty: it is none. `cambium view` looks for exporters that make one.
+  virtual std::string start_page() const { return {}; }
 };
 
 enum class Better { lower, higher, neither };

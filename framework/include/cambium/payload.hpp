@@ -2,6 +2,7 @@
 // What a node saw. Values are immutable once shared; sources load lazily.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,17 +18,19 @@ struct Cloud {
   std::vector<float> xyz;        ///< x y z x y z ..., 3 * size()
   std::vector<float> normals;    ///< empty or 3 * size(), unit length
   std::vector<float> intensity;  ///< empty or size()
+  std::vector<std::uint8_t> label;  ///< empty or size(): ground, trunk, ...; codes in docs/formats.md
 
   std::size_t size() const { return xyz.size() / 3; }
   bool empty() const { return xyz.empty(); }
   Eigen::Map<const Matrix3X> points() const { return {xyz.data(), 3, Eigen::Index(size())}; }
   Eigen::Map<Matrix3X> points() { return {xyz.data(), 3, Eigen::Index(size())}; }
   std::size_t bytes() const {
-    return (xyz.capacity() + normals.capacity() + intensity.capacity()) * sizeof(float);
+    return (xyz.capacity() + normals.capacity() + intensity.capacity()) * sizeof(float) +
+           label.capacity();
   }
 };
 
-/// Copies the points (with their normals and intensities) at `indices`, in that order.
+/// Copies the points (with their normals, intensities and labels) at `indices`, in that order.
 Cloud select(const Cloud& cloud, const std::vector<std::size_t>& indices);
 /// Moves points and normals: p_target = T_target_source * p_source.
 Cloud transformed(const SE3& T_target_source, const Cloud& cloud);
@@ -41,10 +44,25 @@ struct Tree {
   bool reconstructed = false;  ///< a stem was modelled, not only detected
 };
 
+/// A picture, which stays in its file: an exporter copies it, a page shows it.
+struct Image {
+  std::filesystem::path file;  ///< .jpg, .jpeg, .png or .webp
+  std::string camera;          ///< "cam0"; empty where there is only one
+};
+
+/// What an inertial sensor measured, in its own axes.
+struct ImuSample {
+  std::int64_t stamp = 0;                   ///< nanoseconds since 1970
+  Vec3 angular_velocity = Vec3::Zero();     ///< [rad/s]
+  Vec3 acceleration = Vec3::Zero();         ///< with gravity [m/s^2]
+};
+
 /// Any member may be null: the node has no such payload.
 struct Payload {
   std::shared_ptr<const Cloud> cloud;
   std::shared_ptr<const std::vector<Tree>> trees;
+  std::shared_ptr<const std::vector<Image>> images = {};   ///< taken at the node, by camera
+  std::shared_ptr<const std::vector<ImuSample>> imu = {};  ///< from the node to the next one
 
   std::size_t bytes() const;
 };
