@@ -10,24 +10,26 @@
 
 namespace columns {
 
-/// What screen() must know besides query and tile.
+/// A query against a tile: what is asked, and what came out of it.
 struct Screening {
+  const CoarseQuery* query = nullptr;
   float tolerated = 1.0f;  ///< pairs of a larger distance are of no interest
   float least_columns = 1.0f;
-  bool fetch_ahead = false;  ///< read on into the next tile: the loops wait for memory otherwise
+  float* cross = nullptr;  ///< [frequencies][2][lanes]: where the cross spectra go
+  unsigned possible = 0;   ///< the answer, one bit a lane: the distance may be at most `tolerated`
 };
 
 struct Kernel {
   const char* name;
-  /// One bit a lane: the distance may be at most `tolerated`. Since |S(k)| <= sum of |cross(f)|,
-  /// no shift is looked at. Leaves the cross spectra in cross[frequencies][2][lanes].
-  unsigned (*screen)(Shape shape, const std::byte* tile, const CoarseQuery& query,
-                     const Screening& screening, float* cross);
-  /// The same shift by shift, of the lanes in `possible`. Leaves S(k), up to the query's error
+  /// Answers all of `queries`, and fills their cross spectra. Since |S(k)| <= sum of |cross(f)|, no
+  /// shift is looked at. `fetch_ahead`: reads on into the next tile, the loops wait for memory
+  /// otherwise.
+  void (*screen)(Shape shape, const std::byte* tile, std::span<Screening> queries,
+                 bool fetch_ahead);
+  /// The same shift by shift, of the lanes that are possible. Leaves S(k), up to the query's error
   /// bound, in sums[sectors][lanes].
   unsigned (*weigh)(const InverseTransform& inverse, const std::byte* tile,
-                    const CoarseQuery& query, const Screening& screening, const float* cross,
-                    unsigned possible, float* sums);
+                    const Screening& screened, float* sums);
   /// Dot product in float, off by at most rounding_of_dot(count) times the sum of |a b|.
   float (*dot)(const float* a, const float* b, std::size_t count);
 };

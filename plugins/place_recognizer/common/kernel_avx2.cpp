@@ -60,37 +60,40 @@ COLUMNS_AVX2 [[gnu::always_inline]] inline __m256 multiply(const std::byte* code
 }
 
 /// `groups` is shape.groups(); where the compiler knows it, it unrolls the inner loop.
-COLUMNS_AVX2 [[gnu::always_inline]] inline unsigned screen_groups(Shape shape, std::size_t groups,
-                                                                  const std::byte* tile,
-                                                                  const CoarseQuery& query,
-                                                                  const Screening& screening,
-                                                                  float* cross) {
+COLUMNS_AVX2 [[gnu::always_inline]] inline void screen_groups(Shape shape, std::size_t groups,
+                                                              const std::byte* tile,
+                                                              Screening& screening,
+                                                              bool fetch_ahead) {
   const TileLayout layout(shape);
+  const CoarseQuery& query = *screening.query;
   __m256 sum[lanes / 8] = {};
   for (std::size_t f = 0; f < shape.frequencies(); ++f)
     for (std::size_t part = 0; part < lanes / 8; ++part)
-      sum[part] = _mm256_add_ps(
-          sum[part], multiply(tile + f * groups * 4 * lanes + part * 32,
-                              tile + layout.scales + f * lanes * 2 + part * 16, query, f, groups,
-                              cross + 2 * f * lanes + part * 8,
-                              part % 2 == 0 && screening.fetch_ahead ? layout.bytes : 0));
+      sum[part] =
+          _mm256_add_ps(sum[part], multiply(tile + f * groups * 4 * lanes + part * 32,
+                                            tile + layout.scales + f * lanes * 2 + part * 16, query,
+                                            f, groups, screening.cross + 2 * f * lanes + part * 8,
+                                            part % 2 == 0 && fetch_ahead ? layout.bytes : 0));
   float sums[lanes];
   for (std::size_t part = 0; part < lanes / 8; ++part)  // rsqrt: 1.5 * 2^-12
     _mm256_storeu_ps(sums + part * 8, _mm256_mul_ps(sum[part], _mm256_set1_ps(1.0f + 0x1p-10f)));
-  return possible<Registers>(shape, tile, query, screening, sums);
+  screening.possible = possible<Registers>(shape, tile, screening, sums);
 }
 
-COLUMNS_AVX2 unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
-                             const Screening& screening, float* cross) {
-  if (shape.groups() == usual_groups)
-    return screen_groups(shape, usual_groups, tile, query, screening, cross);
-  return screen_groups(shape, shape.groups(), tile, query, screening, cross);
+COLUMNS_AVX2 void screen(Shape shape, const std::byte* tile, std::span<Screening> queries,
+                         bool fetch_ahead) {
+  for (Screening& query : queries) {
+    const bool ahead = fetch_ahead && &query == queries.data();
+    if (shape.groups() == usual_groups)
+      screen_groups(shape, usual_groups, tile, query, ahead);
+    else
+      screen_groups(shape, shape.groups(), tile, query, ahead);
+  }
 }
 
 COLUMNS_AVX2 unsigned weigh(const InverseTransform& inverse, const std::byte* tile,
-                            const CoarseQuery& query, const Screening& screening,
-                            const float* cross, unsigned possible, float* sums) {
-  return weigh_lanes<Registers>(inverse, tile, query, screening, cross, possible, sums);
+                            const Screening& screened, float* sums) {
+  return weigh_lanes<Registers>(inverse, tile, screened, sums);
 }
 
 COLUMNS_AVX2 float dot(const float* a, const float* b, std::size_t count) {

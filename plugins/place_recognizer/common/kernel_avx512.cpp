@@ -40,64 +40,86 @@ COLUMNS_AVX512 [[gnu::always_inline]] inline __m512 finish(__m512i re, __m512i i
   return _mm512_mul_ps(square, _mm512_rsqrt14_ps(square));
 }
 
-/// `groups` is shape.groups(), a constant for the usual shape. All lanes at once: four chains of
-/// sums that do not wait for one another, and each of the query's numbers is read once.
-template <bool fetch_ahead>
-COLUMNS_AVX512 [[gnu::always_inline]] inline unsigned screen_groups(Shape shape, std::size_t groups,
-                                                                    const std::byte* tile,
-                                                                    const CoarseQuery& query,
-                                                                    const Screening& screening,
-                                                                    float* cross) {
+/// As many queries as registers can hold the sums of: each code of the tile is read once for all of
+/// them. `groups` is shape.groups(), a constant for the usual shape.
+template <std::size_t count, bool fetch_ahead>
+COLUMNS_AVX512 [[gnu::always_inline]] inline void screen_groups(Shape shape, std::size_t groups,
+                                                                const std::byte* tile,
+                                                                Screening* queries) {
   const TileLayout layout(shape);
   const std::byte* codes = tile;
-  const std::byte* scales = tile + layout.scales;
-  const std::int8_t* of_query = query.codes.data();
-  __m512 low = _mm512_setzero_ps(), high = _mm512_setzero_ps();
-  for (std::size_t f = 0; f < shape.frequencies(); ++f, of_query += 4 * groups) {
-    __m512i re_low = _mm512_set1_epi32(query.offsets[2 * f]), re_high = re_low;
-    __m512i im_low = _mm512_set1_epi32(query.offsets[2 * f + 1]), im_high = im_low;
-    for (std::size_t g = 0; g < groups; ++g, codes += 4 * lanes, of_query += 4) {
+  __m512 low[count], high[count];
+#pragma GCC unroll 4
+  for (std::size_t q = 0; q < count; ++q) low[q] = high[q] = _mm512_setzero_ps();
+  for (std::size_t f = 0; f < shape.frequencies(); ++f) {
+    __m512i re_low[count], re_high[count], im_low[count], im_high[count];
+    const std::int8_t* of_query[count];
+#pragma GCC unroll 4
+    for (std::size_t q = 0; q < count; ++q) {
+      re_low[q] = re_high[q] = _mm512_set1_epi32(queries[q].query->offsets[2 * f]);
+      im_low[q] = im_high[q] = _mm512_set1_epi32(queries[q].query->offsets[2 * f + 1]);
+      of_query[q] = queries[q].query->codes.data() + f * 8 * groups;
+    }
+    for (std::size_t g = 0; g < groups; ++g, codes += 4 * lanes) {
       if constexpr (fetch_ahead) {
         _mm_prefetch(codes + layout.bytes, _MM_HINT_T1);
         _mm_prefetch(codes + layout.bytes + 64, _MM_HINT_T1);
       }
-      std::int32_t real, imaginary;  // four codes each
-      std::memcpy(&real, of_query, 4);
-      std::memcpy(&imaginary, of_query + 4 * groups, 4);
       const __m512i of_low = _mm512_loadu_si512(codes), of_high = _mm512_loadu_si512(codes + 64);
-      const __m512i reals = _mm512_set1_epi32(real), imaginaries = _mm512_set1_epi32(imaginary);
-      re_low = _mm512_dpbusd_epi32(re_low, of_low, reals);
-      re_high = _mm512_dpbusd_epi32(re_high, of_high, reals);
-      im_low = _mm512_dpbusd_epi32(im_low, of_low, imaginaries);
-      im_high = _mm512_dpbusd_epi32(im_high, of_high, imaginaries);
+#pragma GCC unroll 4
+      for (std::size_t q = 0; q < count; ++q) {
+        std::int32_t real, imaginary;  // four codes each
+        std::memcpy(&real, of_query[q] + 4 * g, 4);
+        std::memcpy(&imaginary, of_query[q] + 4 * (groups + g), 4);
+        const __m512i reals = _mm512_set1_epi32(real), imaginaries = _mm512_set1_epi32(imaginary);
+        re_low[q] = _mm512_dpbusd_epi32(re_low[q], of_low, reals);
+        re_high[q] = _mm512_dpbusd_epi32(re_high[q], of_high, reals);
+        im_low[q] = _mm512_dpbusd_epi32(im_low[q], of_low, imaginaries);
+        im_high[q] = _mm512_dpbusd_epi32(im_high[q], of_high, imaginaries);
+      }
     }
-    const std::byte* scale = scales + f * lanes * 2;
-    float* to = cross + 2 * f * lanes;
-    low = _mm512_add_ps(low, finish(re_low, im_low, scale, query.gains[f], to));
-    high = _mm512_add_ps(high, finish(re_high, im_high, scale + 32, query.gains[f], to + 16));
+    const std::byte* scale = tile + layout.scales + f * lanes * 2;
+#pragma GCC unroll 4
+    for (std::size_t q = 0; q < count; ++q) {
+      const float gain = queries[q].query->gains[f];
+      float* to = queries[q].cross + 2 * f * lanes;
+      low[q] = _mm512_add_ps(low[q], finish(re_low[q], im_low[q], scale, gain, to));
+      high[q] = _mm512_add_ps(high[q], finish(re_high[q], im_high[q], scale + 32, gain, to + 16));
+    }
   }
   const __m512 up = _mm512_set1_ps(1.0f + 0x1p-12f);  // rsqrt14: 2^-14
-  float sums[lanes];
-  _mm512_storeu_ps(sums, _mm512_mul_ps(low, up));
-  _mm512_storeu_ps(sums + 16, _mm512_mul_ps(high, up));
-  return possible<Registers>(shape, tile, query, screening, sums);
+  for (std::size_t q = 0; q < count; ++q) {
+    float sums[lanes];
+    _mm512_storeu_ps(sums, _mm512_mul_ps(low[q], up));
+    _mm512_storeu_ps(sums + 16, _mm512_mul_ps(high[q], up));
+    queries[q].possible = possible<Registers>(shape, tile, queries[q], sums);
+  }
 }
 
-COLUMNS_AVX512 unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
-                               const Screening& screening, float* cross) {
-  const bool usual = shape.groups() == usual_groups;
+template <std::size_t count>
+COLUMNS_AVX512 [[gnu::always_inline]] inline void screen_some(Shape shape, const std::byte* tile,
+                                                              Screening* queries,
+                                                              bool fetch_ahead) {
   const std::size_t groups = shape.groups();
-  if (screening.fetch_ahead)
-    return usual ? screen_groups<true>(shape, usual_groups, tile, query, screening, cross)
-                 : screen_groups<true>(shape, groups, tile, query, screening, cross);
-  return usual ? screen_groups<false>(shape, usual_groups, tile, query, screening, cross)
-               : screen_groups<false>(shape, groups, tile, query, screening, cross);
+  if (fetch_ahead)
+    groups == usual_groups ? screen_groups<count, true>(shape, usual_groups, tile, queries)
+                           : screen_groups<count, true>(shape, groups, tile, queries);
+  else
+    groups == usual_groups ? screen_groups<count, false>(shape, usual_groups, tile, queries)
+                           : screen_groups<count, false>(shape, groups, tile, queries);
+}
+
+COLUMNS_AVX512 void screen(Shape shape, const std::byte* tile, std::span<Screening> queries,
+                           bool fetch_ahead) {
+  std::size_t q = 0;
+  for (; q + 4 <= queries.size(); q += 4)
+    screen_some<4>(shape, tile, &queries[q], fetch_ahead && q == 0);
+  for (; q < queries.size(); ++q) screen_some<1>(shape, tile, &queries[q], fetch_ahead && q == 0);
 }
 
 COLUMNS_AVX512 unsigned weigh(const InverseTransform& inverse, const std::byte* tile,
-                              const CoarseQuery& query, const Screening& screening,
-                              const float* cross, unsigned possible, float* sums) {
-  return weigh_lanes<Registers>(inverse, tile, query, screening, cross, possible, sums);
+                              const Screening& screened, float* sums) {
+  return weigh_lanes<Registers>(inverse, tile, screened, sums);
 }
 
 COLUMNS_AVX512 float dot(const float* a, const float* b, std::size_t count) {

@@ -26,9 +26,9 @@ template <class T>
 /// Registers::not_negative(x) has a bit for each of x[lanes] that is not below 0.
 template <class Registers>
 [[gnu::always_inline]] inline unsigned possible(Shape shape, const std::byte* tile,
-                                                const CoarseQuery& query,
                                                 const Screening& screening, const float* sums) {
   const TileLayout layout(shape);
+  const CoarseQuery& query = *screening.query;
   float error[lanes], norm[lanes], filled[lanes], margin[lanes];
   load(error, tile + layout.error);
   load(norm, tile + layout.norm);
@@ -47,9 +47,10 @@ template <class Registers>
 
 /// The lane has a shift whose sum allows for a distance that is tolerated.
 [[gnu::always_inline]] inline bool has_shift(Shape shape, const std::byte* tile,
-                                             const CoarseQuery& query, const Screening& screening,
-                                             const float* sums, std::size_t lane) {
+                                             const Screening& screening, const float* sums,
+                                             std::size_t lane) {
   const TileLayout layout(shape);
+  const CoarseQuery& query = *screening.query;
   const std::size_t words = shape.words();
   std::uint64_t mask[most_words];
   std::memcpy(mask, tile + layout.masks + lane * words * 8, words * 8);
@@ -127,22 +128,22 @@ template <class Part>
 
 template <class Registers>
 [[gnu::always_inline]] inline unsigned weigh_lanes(const InverseTransform& inverse,
-                                                   const std::byte* tile, const CoarseQuery& query,
-                                                   const Screening& screening, const float* cross,
-                                                   unsigned lanes_in_question, float* sums) {
+                                                   const std::byte* tile, const Screening& screened,
+                                                   float* sums) {
   constexpr std::size_t width = Registers::width;
   const Shape shape = inverse.shape;
   float largest[lanes];
   for (std::size_t lane = 0; lane < lanes; lane += width) {
     Floats<width> of_part = {};
-    all_shifts(inverse, cross + lane, sums + lane, of_part);
+    all_shifts(inverse, screened.cross + lane, sums + lane, of_part);
     std::memcpy(largest + lane, &of_part, sizeof of_part);
   }
-  unsigned good = lanes_in_question & possible<Registers>(shape, tile, query, screening, largest);
-  if (query.filled == shape.sectors) return good;  // the references' own columns count, all of them
+  unsigned good = screened.possible & possible<Registers>(shape, tile, screened, largest);
+  if (screened.query->filled == shape.sectors)
+    return good;  // the references' own columns count, all of them
   for (unsigned left = good; left != 0; left &= left - 1) {
     const auto lane = std::size_t(std::countr_zero(left));
-    if (!has_shift(shape, tile, query, screening, sums, lane)) good &= ~(1u << lane);
+    if (!has_shift(shape, tile, screened, sums, lane)) good &= ~(1u << lane);
   }
   return good;
 }

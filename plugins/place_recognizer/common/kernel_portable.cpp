@@ -29,9 +29,9 @@ void multiply(const std::uint8_t* codes, const std::int8_t* real, const std::int
       }
 }
 
-unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
-                const Screening& screening, float* cross) {
+void screen_one(Shape shape, const std::byte* tile, Screening& screening) {
   const TileLayout layout(shape);
+  const CoarseQuery& query = *screening.query;
   const std::size_t width = 4 * shape.groups();
   float sums[lanes] = {};
   for (std::size_t f = 0; f < shape.frequencies(); ++f) {
@@ -45,17 +45,21 @@ unsigned screen(Shape shape, const std::byte* tile, const CoarseQuery& query,
       const auto half = read<std::uint16_t>(tile + layout.scales, f * lanes + lane);
       const float scale = query.gains[f] * std::bit_cast<float>(std::uint32_t(half) << 16);
       const float x = scale * float(re[lane]), y = scale * float(im[lane]);
-      cross[2 * f * lanes + lane] = x;
-      cross[(2 * f + 1) * lanes + lane] = y;
+      screening.cross[2 * f * lanes + lane] = x;
+      screening.cross[(2 * f + 1) * lanes + lane] = y;
       sums[lane] += std::sqrt(x * x + y * y);
     }
   }
-  return possible<Registers>(shape, tile, query, screening, sums);
+  screening.possible = possible<Registers>(shape, tile, screening, sums);
 }
 
-unsigned weigh(const InverseTransform& inverse, const std::byte* tile, const CoarseQuery& query,
-               const Screening& screening, const float* cross, unsigned possible, float* sums) {
-  return weigh_lanes<Registers>(inverse, tile, query, screening, cross, possible, sums);
+void screen(Shape shape, const std::byte* tile, std::span<Screening> queries, bool) {
+  for (Screening& query : queries) screen_one(shape, tile, query);
+}
+
+unsigned weigh(const InverseTransform& inverse, const std::byte* tile, const Screening& screened,
+               float* sums) {
+  return weigh_lanes<Registers>(inverse, tile, screened, sums);
 }
 
 float dot(const float* a, const float* b, std::size_t count) { return dot_product(a, b, count); }

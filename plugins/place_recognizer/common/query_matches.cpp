@@ -32,7 +32,7 @@ Match QuerySearch::best_of(std::span<const Plausible> of_reference) const {
 }
 
 double QuerySearch::refined(const Match& match, std::size_t shift) const {
-  const std::size_t sectors = lower_.size();
+  const std::size_t sectors = in_common_.size();
   const auto at = [&](std::size_t k) {
     return distance_at(views_[match.view], match.reference, k % sectors);
   };

@@ -30,7 +30,7 @@ QuerySearch::QuerySearch(const Task& task, const Table& queries, std::size_t que
       query_(query),
       least_columns_(std::max(1.0, std::ceil(task.limits.min_overlap * queries.shape.sectors))),
       nearest_(std::size_t(task.limits.candidates), task.limits.threshold),
-      lower_(std::size_t(queries.shape.sectors)) {
+      in_common_(std::size_t(queries.shape.sectors)) {
   for (std::size_t v = 0; v < queries.views; ++v) {
     const auto descriptor = queries.descriptor(query, v);
     views_.push_back({descriptor, CoarseQuery(descriptor, transform)});
@@ -38,6 +38,7 @@ QuerySearch::QuerySearch(const Task& task, const Table& queries, std::size_t que
 }
 
 unsigned QuerySearch::allowed_lanes(std::size_t tile) const {
+  if (!task_.pairing.within_mission) return ~0u;
   unsigned bits = 0;
   const std::size_t first = tile * lanes;
   for (std::size_t r = first; r < std::min(first + lanes, task_.references.size()); ++r)
@@ -45,28 +46,34 @@ unsigned QuerySearch::allowed_lanes(std::size_t tile) const {
   return bits;
 }
 
-void QuerySearch::look_at(std::size_t tile, bool fetch_ahead, Scratch& scratch) {
-  const unsigned allowed = task_.pairing.within_mission ? allowed_lanes(tile) : ~0u;
+void QuerySearch::ask(std::size_t tile, Scratch& scratch) const {
+  if (allowed_lanes(tile) == 0) return;
+  for (const View& view : views_)
+    scratch.screenings.push_back(
+        {&view.coarse, float(nearest_.bar()), float(least_columns_),
+         scratch.spectra.data() + scratch.screenings.size() * scratch.cross});
+}
+
+void QuerySearch::look_at(std::size_t tile, std::span<Screening>& answers,
+                          std::vector<float>& sums) {
+  const unsigned allowed = allowed_lanes(tile);
   if (allowed == 0) return;
-  const Shape shape = task_.references.shape;
   const std::byte* bytes = task_.references.tile(tile);
   double upper[lanes];
   std::fill_n(upper, lanes, infinity);
   unsigned seen = 0;
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    const CoarseQuery& query = views_[v].coarse;
-    const Screening screening{float(nearest_.bar()), float(least_columns_), fetch_ahead && v == 0};
-    unsigned good =
-        allowed & task_.kernel.screen(shape, bytes, query, screening, scratch.cross.data());
-    if (good != 0)
-      good = task_.kernel.weigh(task_.inverse, bytes, query, screening, scratch.cross.data(), good,
-                                scratch.sums.data());
+    Screening& screened = answers[v];
+    screened.possible &= allowed;
+    const unsigned good =
+        screened.possible ? task_.kernel.weigh(task_.inverse, bytes, screened, sums.data()) : 0;
     for (unsigned left = good; left != 0; left &= left - 1) {
       const auto lane = std::size_t(std::countr_zero(left));
-      keep_plausible(v, tile * lanes + lane, scratch.sums.data(), upper[lane]);
+      keep_plausible(v, tile * lanes + lane, sums.data(), upper[lane]);
     }
     seen |= good;
   }
+  answers = answers.subspan(views_.size());
   for (; seen != 0; seen &= seen - 1) nearest_.add(upper[std::countr_zero(seen)]);
 }
 
@@ -92,18 +99,22 @@ void QuerySearch::keep_plausible(std::size_t v, std::size_t reference, const flo
   const std::size_t lane = reference % lanes;
   const double error = double(view.coarse.per_error) * read<float>(tile + layout.error, lane) +
                        double(view.coarse.per_norm) * read<float>(tile + layout.norm, lane);
-  const std::size_t sectors = lower_.size();
-  for (std::size_t k = 0; k < sectors; ++k) {
-    const int n = columns_in_common(view, reference, k);
-    const double sum = sums[k * lanes + lane];
-    lower_[k] = distance(sum + error, n, least_columns_) - slack;
-    upper = std::min(upper, distance(sum - error, n, least_columns_) + slack);
+  double largest = -infinity;  // mean cosine that some shift has at least
+  for (std::size_t k = 0; k < in_common_.size(); ++k) {
+    in_common_[k] = columns_in_common(view, reference, k);
+    if (in_common_[k] >= least_columns_)
+      largest = std::max(largest, (sums[k * lanes + lane] - error) / in_common_[k]);
   }
+  if (largest > -infinity) upper = std::min(upper, std::max(0.0, 1.0 - largest) + slack);
   const double bar = std::min(nearest_.bar(), upper);
-  for (std::size_t k = 0; k < sectors; ++k)
-    if (lower_[k] <= bar)
-      plausible_.push_back(
-          {lower_[k], std::uint32_t(reference), std::uint16_t(v), std::uint16_t(k)});
+  const double wanted = 1.0 - bar - 2.0 * slack;  // saves most divisions
+  for (std::size_t k = 0; k < in_common_.size(); ++k) {
+    const double sum = sums[k * lanes + lane] + error;
+    if (sum < wanted * in_common_[k]) continue;
+    const double lower = distance(sum, in_common_[k], least_columns_) - slack;
+    if (lower <= bar)
+      plausible_.push_back({lower, std::uint32_t(reference), std::uint16_t(v), std::uint16_t(k)});
+  }
 }
 
 double QuerySearch::distance_at(const View& view, std::size_t reference, std::size_t shift) const {

@@ -35,18 +35,26 @@ class Smallest {
   std::vector<double> heap_;  // the largest first
 };
 
-/// Between the parts of a kernel; one for all queries of a thread, so that it stays in the cache.
+/// Between the parts of a kernel, for the queries that a thread takes through the tiles at once.
 struct Scratch {
-  explicit Scratch(Shape shape)
-      : cross(shape.frequencies() * 2 * lanes), sums(std::size_t(shape.sectors) * lanes) {}
-  std::vector<float> cross, sums;
+  Scratch(Shape shape, std::size_t descriptors)
+      : cross(shape.frequencies() * 2 * lanes),
+        spectra(descriptors * cross),
+        sums(std::size_t(shape.sectors) * lanes) {}
+  std::size_t cross;  ///< numbers of the cross spectra of a descriptor
+  std::vector<float> spectra, sums;
+  std::vector<Screening> screenings;
 };
 
 class QuerySearch {
  public:
   QuerySearch(const Task& task, const Table& queries, std::size_t query,
               const Transform& transform);
-  void look_at(std::size_t tile, bool fetch_ahead, Scratch& scratch);
+  /// Adds what is to be asked of a tile: a screening for each view, or none where the mission's
+  /// own nodes are too near.
+  void ask(std::size_t tile, Scratch& scratch) const;
+  /// Takes the answers to these questions from the front of `answers`.
+  void look_at(std::size_t tile, std::span<Screening>& answers, std::vector<float>& sums);
   std::vector<Match> matches();
 
  private:
@@ -76,7 +84,7 @@ class QuerySearch {
   std::vector<View> views_;
   Smallest nearest_;  // upper bounds
   std::vector<Plausible> plausible_;
-  std::vector<double> lower_;
+  std::vector<int> in_common_;  // by shift
 };
 
 }  // namespace columns

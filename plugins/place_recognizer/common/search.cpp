@@ -8,11 +8,22 @@
 namespace columns {
 namespace {
 
-// A tile is read once for so many descriptors of queries; more would not fit beside it in the
-// fastest cache.
+// A tile is read once for so many descriptors of queries. More gain little, and leave the threads of
+// a small mission without work.
 constexpr std::size_t descriptors_at_once = 16;
 
 constexpr std::size_t tiles_between_checks = 256;
+
+void look_at(std::size_t tile, const Task& task, std::span<QuerySearch> searches,
+             Scratch& scratch) {
+  scratch.screenings.clear();
+  for (const QuerySearch& search : searches) search.ask(tile, scratch);
+  const bool fetch_ahead = tile + 1 < tile_count(task.references.size());
+  task.kernel.screen(task.references.shape, task.references.tile(tile), scratch.screenings,
+                     fetch_ahead);
+  std::span<Screening> answers = scratch.screenings;
+  for (QuerySearch& search : searches) search.look_at(tile, answers, scratch.sums);
+}
 
 }  // namespace
 
@@ -45,10 +56,10 @@ std::vector<std::vector<Match>> search(const Table& queries, const Table& refere
     std::vector<QuerySearch> searches;
     for (std::size_t q = block * at_once; q < end; ++q)
       searches.emplace_back(task, queries, q, transform);
-    Scratch scratch(references.shape);
+    Scratch scratch(references.shape, searches.size() * queries.views);
     for (std::size_t tile = 0; tile < tile_count(references.size()); ++tile) {
       if (tile % tiles_between_checks == 0) context.check_cancelled();
-      for (QuerySearch& search : searches) search.look_at(tile, &search == &searches[0], scratch);
+      look_at(tile, task, searches, scratch);
     }
     for (std::size_t q = block * at_once; q < end; ++q)
       matches[q] = searches[q - block * at_once].matches();

@@ -177,33 +177,58 @@ TEST(Columns, NothingMatchesAnEmptyDescriptor) {
     for (const Match& m : matches[q]) EXPECT_NE(m.reference, 4u);
 }
 
+/// Queries as kernels take them.
+struct Screenings {
+  Screenings(const std::vector<Descriptor>& queries, const Transform& transform)
+      : spectra(queries.size()) {
+    for (const Descriptor& query : queries) coarse.emplace_back(query, transform);
+    for (std::size_t q = 0; q < queries.size(); ++q) {
+      spectra[q].resize(transform.shape().frequencies() * 2 * lanes);
+      all.push_back({&coarse[q], 1.0f, 1.0f, spectra[q].data()});
+    }
+  }
+  std::vector<CoarseQuery> coarse;
+  std::vector<std::vector<float>> spectra;
+  std::vector<Screening> all;
+};
+
+/// Lanes, and the sums of all shifts.
+std::pair<unsigned, std::vector<float>> weighed(const Kernel& kernel,
+                                                const InverseTransform& inverse,
+                                                const std::byte* tile, const Screening& screened) {
+  std::vector<float> sums(std::size_t(inverse.shape.sectors) * lanes);
+  const unsigned possible = kernel.weigh(inverse, tile, screened, sums.data());
+  return {possible, std::move(sums)};
+}
+
 // What the search stands on: no kernel is farther off than it says.
 TEST(Columns, KernelsKeepTheirBounds) {
   for (const Shape shape : shapes) {
     const Transform transform(shape);
     const InverseTransform inverse(shape);
     const TileLayout layout(shape);
-    const auto queries = descriptors(shape, 3, 0.9, 0.9, 1);
+    const auto queries = descriptors(shape, 5, 0.9, 0.9, 1);  // kernels take four at once, or one
     const auto references = descriptors(shape, lanes, 0.9, 0.9, 2);
     const auto table = fingerprints(references, shape);
     const std::byte* tile = Table{table, shape}.tile(0);
-    std::vector<float> cross(shape.frequencies() * 2 * lanes),
-        sums(std::size_t(shape.sectors) * lanes);
-    for (const Kernel& kernel : kernels())
-      for (const Descriptor& query : queries) {
-        const CoarseQuery coarse(query, transform);
-        kernel.screen(shape, tile, coarse, {1.0f, 1.0f}, cross.data());
-        kernel.weigh(inverse, tile, coarse, {1.0f, 1.0f}, cross.data(), ~0u, sums.data());
+    for (const Kernel& kernel : kernels()) {
+      Screenings asked(queries, transform);
+      kernel.screen(shape, tile, asked.all, false);
+      for (std::size_t q = 0; q < queries.size(); ++q) {
+        asked.all[q].possible = ~0u;
+        const auto sums = weighed(kernel, inverse, tile, asked.all[q]).second;
+        const CoarseQuery& coarse = asked.coarse[q];
         for (std::size_t lane = 0; lane < lanes; ++lane) {
           const double bound = coarse.per_error * read<float>(tile + layout.error, lane) +
                                coarse.per_norm * read<float>(tile + layout.norm, lane);
           EXPECT_LT(bound, 0.05 * shape.sectors);
           for (std::size_t k = 0; k < std::size_t(shape.sectors); ++k)
-            EXPECT_NEAR(sums[k * lanes + lane], correlation(query, references[lane], shape, k),
+            EXPECT_NEAR(sums[k * lanes + lane], correlation(queries[q], references[lane], shape, k),
                         bound)
                 << kernel.name;
         }
       }
+    }
   }
 }
 
@@ -214,18 +239,15 @@ TEST(Columns, ScreeningLosesNothing) {
     const auto table = fingerprints(all, shape);
     const Table of{table, shape};
     const InverseTransform inverse(shape);
-    std::vector<float> cross(shape.frequencies() * 2 * lanes);
-    std::vector<float> sums(std::size_t(shape.sectors) * lanes);
     for (std::size_t q = 0; q < 8; ++q)
       for (const Found& found : brute_force(of, q, of, {64, 1.0, 0.25}))
         for (const Kernel& kernel : kernels()) {
-          const Screening screening{float(found.distance),
-                                    float(std::max(1.0, std::ceil(0.25 * shape.sectors)))};
-          const CoarseQuery query(all[q], Transform(shape));
+          Screenings asked({all[q]}, Transform(shape));
+          asked.all[0].tolerated = float(found.distance);
+          asked.all[0].least_columns = float(std::max(1.0, std::ceil(0.25 * shape.sectors)));
           const std::byte* tile = of.tile(found.reference / lanes);
-          const unsigned screened = kernel.screen(shape, tile, query, screening, cross.data());
-          const unsigned possible =
-              kernel.weigh(inverse, tile, query, screening, cross.data(), screened, sums.data());
+          kernel.screen(shape, tile, asked.all, true);
+          const unsigned possible = weighed(kernel, inverse, tile, asked.all[0]).first;
           EXPECT_TRUE(possible >> found.reference % lanes & 1) << kernel.name;
         }
   }
