@@ -2,6 +2,7 @@
 #pragma once
 #include <time.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -24,6 +25,7 @@ inline double cpu_milliseconds() {
 /// The pairs of one line of the table.
 struct Tally {
   int pairs = 0, correct = 0, accepted = 0, wrong = 0;
+  double distance = 0;  ///< of the accepted, how far |t| is off: no attitude of the truth is in it
   std::vector<double> milliseconds, translation, rotation;
 
   /// `truth` is T_target_source.
@@ -34,6 +36,8 @@ struct Tally {
     correct += good;
     accepted += a.converged && good;
     wrong += a.converged && !good;
+    if (a.converged)
+      distance = std::max(distance, std::abs(a.T_target_source.t.norm() - truth.t.norm()));
     milliseconds.push_back(ms);
     if (!good) return;
     translation.push_back(error.t.norm());
@@ -41,16 +45,15 @@ struct Tally {
   }
   static void print_header() {
     std::printf(
-        "| pairs | n | correct %% | accepted and correct %% | accepted but wrong | median m | deg "
-        "| "
-        "ms |\n"
-        "|---|---|---|---|---|---|---|---|\n");
+        "| pairs | n | correct %% | accepted and correct %% | accepted but wrong | accepted: "
+        "distance off by at most m | median m | deg | ms |\n"
+        "|---|---|---|---|---|---|---|---|---|\n");
   }
   void print(const std::string& label) const {
     if (pairs == 0) return;
-    std::printf("| %-34s | %4d | %5.1f | %5.1f | %3d | %5.3f | %4.2f | %4.0f |\n", label.c_str(),
-                pairs, 100.0 * correct / pairs, 100.0 * accepted / pairs, wrong,
-                median(translation), median(rotation), median(milliseconds));
+    std::printf("| %-34s | %4d | %5.1f | %5.1f | %3d | %5.3f | %5.3f | %4.2f | %4.0f |\n",
+                label.c_str(), pairs, 100.0 * correct / pairs, 100.0 * accepted / pairs, wrong,
+                distance, median(translation), median(rotation), median(milliseconds));
     std::fflush(stdout);
   }
 };
