@@ -64,7 +64,8 @@ CLI::App* add(CLI::App& app, const std::shared_ptr<Options>& o, const char* name
   CLI::App* sub = app.add_subcommand(name, help);
   sub->add_option("FILE", o->file, "What to run (YAML), see docs/matrix.md");
   sub->add_option("--out,-o", o->out, "Folder for results; new, empty, or of an earlier run");
-  sub->add_option("--jobs", o->jobs, "Cells side by side; 0 = as many as threads")
+  sub->add_option("--jobs", o->jobs,
+                  "Cells side by side; 0 = as many as there are threads, and 512M for each")
       ->capture_default_str();
   sub->add_option("--shard", o->shard,
                   "I/N: run only this part of the cells, into the cache; judge nothing");

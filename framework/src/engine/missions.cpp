@@ -89,9 +89,10 @@ void check_names(const std::vector<Mission>& missions) {
   }
 }
 
-// Pose graphs are in memory for the whole run; payloads come and go.
-void check_memory(const Engine& engine, std::size_t missions) {
-  const std::size_t used = resident_bytes();
+// Pose graphs are in memory for the whole run; payloads come and go. What the process took before
+// it read them (`before`: libraries, mostly) is not theirs.
+void check_memory(const Engine& engine, std::size_t missions, std::size_t before) {
+  const std::size_t now = resident_bytes(), used = now > before ? now - before : 0;
   if (used <= engine.memory()) return;
   throw Error(ErrorCode::config, "--memory",
               fmt::format("{} missions take {} before the first step, more than the {} allowed; "
@@ -152,6 +153,7 @@ Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const En
                 "no missions; name them under 'missions:' or on the command line");
 
   std::vector<Mission> missions(sources.size());
+  const std::size_t before = resident_bytes();
   engine.progress().begin("read missions");
   engine.progress().expect(sources.size());
   engine.parallel_for(sources.size(), [&](std::size_t i) {
@@ -174,7 +176,7 @@ Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const En
   for (const auto& m : missions)
     for (const auto& w : m.warnings) engine.progress().log(LogLevel::warning, w);
   Atlas atlas = make_atlas(std::move(missions), engine);
-  check_memory(engine, atlas.missions.size());
+  check_memory(engine, atlas.missions.size(), before);
   return atlas;
 }
 

@@ -8,7 +8,7 @@ namespace cambium::matrix {
 
 struct RunSettings {
   std::filesystem::path out;  ///< gets datasets/, and for each cell cells/NAME{.yaml,.log,/}
-  std::size_t jobs = 0;       ///< cells side by side; 0 = one a thread
+  std::size_t jobs = 0;       ///< cells side by side; 0 = as many as have threads and memory
   EngineOptions engine;       ///< its memory is split evenly, its threads as cells need them
   std::vector<std::string> plugin_path;
 };

@@ -8,6 +8,17 @@
 namespace cambium::matrix {
 namespace {
 
+/// Fewer side by side when each would have less than this: on a machine of many cores it is memory
+/// that is short, and a cell makes use of more threads.
+constexpr std::size_t least_memory = std::size_t(512) << 20;
+
+/// Jobs side by side. What the user asks for is done.
+std::size_t most_at_once(const RunSettings& settings, std::size_t jobs, const Engine& engine) {
+  if (settings.jobs > 0) return settings.jobs;
+  const std::size_t roomy = std::max<std::size_t>(1, settings.engine.memory / least_memory);
+  return std::min({std::size_t(engine.threads()), std::max<std::size_t>(1, jobs), roomy});
+}
+
 std::vector<Steps> all_steps(const std::vector<Job>& jobs) {
   std::vector<Steps> out;
   for (const Job& job : jobs) out.push_back(job.steps);
@@ -23,7 +34,7 @@ Runner::Runner(std::vector<Job> jobs, double time_limit, const RunSettings& sett
       settings_(settings),
       engine_(engine),
       schedule_(all_steps(jobs_)),
-      most_(settings.jobs > 0 ? settings.jobs : std::size_t(engine.threads())),
+      most_(most_at_once(settings, jobs_.size(), engine)),
       free_threads_(engine.threads()),
       runs_(jobs_.size()) {}
 
