@@ -226,6 +226,11 @@ TEST_F(ManyMissions, AMissionWithAWrongFrameIsAnIslandAndBendsNoOther) {
                           "mission_c} {mission_d}"),
             std::string::npos)
       << with.err;
+  EXPECT_NE(
+      with.err.find("mission 'mission_d': its path lies in an upright plane, whose normal is "),
+      std::string::npos)
+      << with.err;
+  EXPECT_EQ(with.err.find("mission 'mission_a': its path"), std::string::npos) << with.err;
   ASSERT_EQ(fuse({mission('a'), mission('b'), mission('c')}, "unframed").code, 0);
   for (const char* of : {"fused.g2o", "mission_a.tum", "mission_b.tum", "mission_c.tum"})
     EXPECT_EQ(text(std::string("framed/") + of), text(std::string("unframed/") + of)) << of;

@@ -5,10 +5,12 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "cambium/dialect.hpp"
 #include "engine/copies.hpp"
 #include "engine/memory_use.hpp"
+#include "engine/upright_path.hpp"
 
 namespace cambium {
 namespace {
@@ -87,6 +89,17 @@ void check_names(const std::vector<Mission>& missions) {
                               "another name with {{path: ..., name: ...}}",
                               a.name, a.graph_file.string()));
   }
+}
+
+void warn_of(const Mission& mission, Progress& progress) {
+  for (const auto& warning : mission.warnings) progress.log(LogLevel::warning, warning);
+  if (const auto off = upright_path(mission))
+    progress.log(
+        LogLevel::warning,
+        fmt::format("mission '{}': its path lies in an upright plane, whose normal is "
+                    "{:.0f} deg from z; is its frame z up? Turn the poses of a frame with "
+                    "z forward before they are fused ({})",
+                    mission.name, *off * 180 / std::numbers::pi, mission.graph_file.string()));
 }
 
 // Pose graphs are in memory for the whole run; payloads come and go. What the process took before
@@ -173,8 +186,7 @@ Atlas read_missions(const Pipeline& pipeline, const Registry& registry, const En
   std::size_t nodes = 0;
   for (const auto& m : missions) nodes += m.nodes.size();
   engine.progress().end(fmt::format("{} missions, {} nodes", missions.size(), nodes));
-  for (const auto& m : missions)
-    for (const auto& w : m.warnings) engine.progress().log(LogLevel::warning, w);
+  for (const auto& m : missions) warn_of(m, engine.progress());
   Atlas atlas = make_atlas(std::move(missions), engine);
   check_memory(engine, atlas.missions.size(), before);
   return atlas;
