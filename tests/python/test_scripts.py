@@ -15,6 +15,17 @@ from program import ProgramCase, main  # noqa: E402
 STEPS = {"payload_filter": "filter", "place_recognizer": "recognize", "registration": "register",
          "map_exporter": "export", "evaluator": "evaluate"}
 
+# Whoever asks for NumPy's functions lets go of the interpreter's lock for a while.
+SLOW_NUMPY = """
+import builtins, time
+plain_import = builtins.__import__
+def slow_import(name, *rest, **more):
+    if name == "numpy.core.multiarray":
+        time.sleep(0.3)
+    return plain_import(name, *rest, **more)
+builtins.__import__ = slow_import
+"""
+
 
 class Scripts(ProgramCase):
     @classmethod
@@ -41,6 +52,12 @@ class Scripts(ProgramCase):
         loops = {m["name"]: m["value"] for m in
                  json.loads((self.work / "out_place_recognizer/report.json").read_text())["metrics"]}
         self.assertEqual(loops["loops.precision"], 1)
+
+    def test_threads_do_not_wait_for_each_others_first_array(self):
+        script = self.new("registration", "slow_numpy") / "slow_numpy.py"
+        script.write_text(f"{SLOW_NUMPY}\n{script.read_text()}")
+        self.cambium("run", "slow_numpy/slow_numpy.yaml", "--out", "out_slow_numpy", "--threads", "8",
+                     "--set", "register.points=100", within=300)
 
     def test_a_reader_is_found_from_the_run_folder_too(self):
         self.new("mission_reader", "my_reader")

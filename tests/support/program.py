@@ -19,9 +19,9 @@ class ProgramCase(unittest.TestCase):
         cls.work = Path(folder.name)
         cls.environment = {**os.environ, "CAMBIUM_CACHE": str(cls.work / "cache")}
 
-    def cambium(self, *command, code=0):
+    def cambium(self, *command, code=0, within=600):
         done = subprocess.run([self.program, *command], cwd=self.work, text=True, capture_output=True,
-                              env=self.environment)
+                              env=self.environment, timeout=within)
         if done.returncode != code:
             raise AssertionError(f"{command}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
         return done

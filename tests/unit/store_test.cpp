@@ -40,6 +40,22 @@ TEST(MemoryStore, ServesWhatIsLargerThanTheBudget) {
   EXPECT_EQ(*std::static_pointer_cast<const int>(value), 7);
 }
 
+// A value that waits for another thread as it goes, while that thread waits for the store.
+TEST(MemoryStore, WhatIsForgottenGoesWhenTheStoreIsFree) {
+  MemoryStore store(100);
+  std::size_t asked = 0;
+  const auto get = [&](int i) {
+    store.get(key(i), [&] {
+      return MemoryStore::Value{{new int(i), [&](int* p) { delete p, asked += 1 + store.bytes(); }},
+                                60};
+    });
+  };
+  get(1), get(2);
+  EXPECT_EQ(asked, 61u);
+  store.shrink(0);
+  EXPECT_EQ(asked, 62u);
+}
+
 TEST(Codec, EveryResultReadsBack) {
   Alignment a;
   a.converged = true;

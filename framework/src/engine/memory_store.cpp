@@ -38,6 +38,7 @@ std::shared_ptr<const void> MemoryStore::get(const Digest& key,
     }
   }
   Value value = make();
+  std::vector<Value> evicted;
   const std::lock_guard lock(mutex_);
   const auto [it, fresh] = entries_.try_emplace(key);
   if (!fresh) return it->second.value.data;  // another thread was first: keep one copy
@@ -45,22 +46,26 @@ std::shared_ptr<const void> MemoryStore::get(const Digest& key,
   it->second = {value, recent_.begin()};
   bytes_ += value.bytes;
   // The newest entry stays even when it alone is over the budget: its user holds it anyway.
-  evict(budget_, 1);
+  evicted = evict(budget_, 1);
   return value.data;
 }
 
 void MemoryStore::shrink(std::size_t bytes) {
+  std::vector<Value> evicted;
   const std::lock_guard lock(mutex_);
-  evict(bytes, 0);
+  evicted = evict(bytes, 0);
 }
 
-void MemoryStore::evict(std::size_t limit, std::size_t keep) {
+std::vector<MemoryStore::Value> MemoryStore::evict(std::size_t limit, std::size_t keep) {
+  std::vector<Value> out;
   while (bytes_ > limit && recent_.size() > keep) {
     const auto it = entries_.find(recent_.back());
     bytes_ -= it->second.value.bytes;
+    out.push_back(std::move(it->second.value));
     entries_.erase(it);
     recent_.pop_back();
   }
+  return out;
 }
 
 std::size_t MemoryStore::bytes() const {

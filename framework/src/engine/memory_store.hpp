@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "cambium/payload.hpp"
 
@@ -36,7 +37,9 @@ class MemoryStore {
     Value value;
     std::list<Digest>::iterator used;
   };
-  void evict(std::size_t limit, std::size_t keep);
+  /// Destroy what comes back when the lock is free: a value may wait for others as it goes (that of
+  /// a Python registration waits for the interpreter).
+  [[nodiscard]] std::vector<Value> evict(std::size_t limit, std::size_t keep);
 
   const std::size_t budget_;
   mutable std::mutex mutex_;

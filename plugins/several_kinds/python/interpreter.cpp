@@ -2,6 +2,7 @@
 #include "interpreter.hpp"
 
 #include <dlfcn.h>
+#include <pybind11/numpy.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -55,6 +56,11 @@ void initialize() {
   check(done);
 }
 
+// pybind11 looks NumPy's functions up in a static variable, at the first array. The lookup may let
+// go of the lock; a thread that then takes it waits for the variable, and all wait for that thread.
+// So the first array is made while there is one thread.
+void use_arrays() { py::dtype::of<double>(); }
+
 void import_prelude() try {
   py::module_ module = py::reinterpret_steal<py::module_>(PyModule_New("cambium"));
   py::module_::import("sys").attr("modules")["cambium"] = module;
@@ -62,6 +68,7 @@ void import_prelude() try {
       py::module_::import("builtins").attr("compile")(prelude, "<cambium>", "exec");
   py::module_::import("builtins").attr("exec")(code, module.attr("__dict__"));
   translate_exceptions();
+  use_arrays();
 } catch (py::error_already_set& e) {
   throw Error(ErrorCode::plugin, program(),
               std::string("Python starts, but not with NumPy: ") + e.what());

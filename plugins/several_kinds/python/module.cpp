@@ -167,8 +167,18 @@ void bind_context(py::module_& m) {
       .def("info", log(LogLevel::info))
       .def("warn", log(LogLevel::warning))
       .def("check_cancelled", [](const LentContext& c) { c.get().check_cancelled(); })
-      .def("expect", [](const LentContext& c, std::size_t parts) { c.get().expect(parts); })
-      .def("advance", [](const LentContext& c) { c.get().advance(); })
+      .def("expect",
+           [](const LentContext& c, std::size_t parts) {
+             const Context& context = c.get();
+             const py::gil_scoped_release unlocked;
+             context.expect(parts);
+           })
+      .def("advance",
+           [](const LentContext& c) {
+             const Context& context = c.get();
+             const py::gil_scoped_release unlocked;
+             context.advance();
+           })
       .def_property_readonly("threads", [](const LentContext& c) { return c.get().threads(); })
       .def_property_readonly("seed", [](const LentContext& c) { return c.get().seed(); })
       .def_property_readonly("scratch",
