@@ -21,6 +21,9 @@ if(CAMBIUM_SANITIZE)
   add_compile_options(-fsanitize=${CAMBIUM_SANITIZE} -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${CAMBIUM_SANITIZE})
   if(CAMBIUM_SANITIZE STREQUAL address)
+    # Eigen allocates otherwise under this sanitizer, but the libraries (PCL) that hand us Eigen's memory were not
+    # built with it.
+    add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
     add_compile_options(-fsanitize=undefined -fno-sanitize-recover=undefined)
     add_link_options(-fsanitize=undefined)
   endif()
