@@ -46,8 +46,9 @@ unsigned QuerySearch::allowed_lanes(std::size_t tile) const {
   return bits;
 }
 
-void QuerySearch::ask(std::size_t tile, Scratch& scratch) const {
-  if (allowed_lanes(tile) == 0) return;
+void QuerySearch::ask(std::size_t tile, Scratch& scratch) {
+  allowed_ = allowed_lanes(tile);
+  if (allowed_ == 0) return;
   for (const View& view : views_)
     scratch.screenings.push_back(
         {&view.coarse, float(nearest_.bar()), float(least_columns_),
@@ -56,15 +57,14 @@ void QuerySearch::ask(std::size_t tile, Scratch& scratch) const {
 
 void QuerySearch::look_at(std::size_t tile, std::span<Screening>& answers,
                           std::vector<float>& sums) {
-  const unsigned allowed = allowed_lanes(tile);
-  if (allowed == 0) return;
+  if (allowed_ == 0) return;
   const std::byte* bytes = task_.references.tile(tile);
   double upper[lanes];
   std::fill_n(upper, lanes, infinity);
   unsigned seen = 0;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     Screening& screened = answers[v];
-    screened.possible &= allowed;
+    screened.possible &= allowed_;
     const unsigned good =
         screened.possible ? task_.kernel.weigh(task_.inverse, bytes, screened, sums.data()) : 0;
     for (unsigned left = good; left != 0; left &= left - 1) {

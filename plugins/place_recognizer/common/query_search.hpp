@@ -52,8 +52,8 @@ class QuerySearch {
               const Transform& transform);
   /// Adds what is to be asked of a tile: a screening for each view, or none where the mission's
   /// own nodes are too near.
-  void ask(std::size_t tile, Scratch& scratch) const;
-  /// Takes the answers to these questions from the front of `answers`.
+  void ask(std::size_t tile, Scratch& scratch);
+  /// Takes the answers to these questions, about the same tile, from the front of `answers`.
   void look_at(std::size_t tile, std::span<Screening>& answers, std::vector<float>& sums);
   std::vector<Match> matches();
 
@@ -81,6 +81,7 @@ class QuerySearch {
   const Task& task_;
   std::size_t query_;
   double least_columns_;
+  unsigned allowed_ = 0;  // lanes of the tile that was asked about
   std::vector<View> views_;
   Smallest nearest_;  // upper bounds
   std::vector<Plausible> plausible_;

@@ -8,8 +8,8 @@
 namespace columns {
 namespace {
 
-// A tile is read once for so many descriptors of queries. More gain little, and leave the threads of
-// a small mission without work.
+// A tile is read once for so many descriptors of queries. More gain little, and leave the threads
+// of a small mission without work.
 constexpr std::size_t descriptors_at_once = 16;
 
 constexpr std::size_t tiles_between_checks = 256;
@@ -17,7 +17,7 @@ constexpr std::size_t tiles_between_checks = 256;
 void look_at(std::size_t tile, const Task& task, std::span<QuerySearch> searches,
              Scratch& scratch) {
   scratch.screenings.clear();
-  for (const QuerySearch& search : searches) search.ask(tile, scratch);
+  for (QuerySearch& search : searches) search.ask(tile, scratch);
   const bool fetch_ahead = tile + 1 < tile_count(task.references.size());
   task.kernel.screen(task.references.shape, task.references.tile(tile), scratch.screenings,
                      fetch_ahead);

@@ -154,31 +154,24 @@ Payload make_payload(const py::object& cloud, const py::object& trees) {
   return out;
 }
 
+// Without the interpreter's lock: the host may wait for other threads.
+using Unlocked = py::call_guard<py::gil_scoped_release>;
+
 void bind_context(py::module_& m) {
   using Text = const std::string&;
   const auto log = [](LogLevel level) {
-    return [level](const LentContext& c, Text message) {
-      const py::gil_scoped_release unlocked;
-      c.get().log(level, message);
-    };
+    return [level](const LentContext& c, Text message) { c.get().log(level, message); };
   };
   py::class_<LentContext>(m, "Context")
-      .def("debug", log(LogLevel::debug))
-      .def("info", log(LogLevel::info))
-      .def("warn", log(LogLevel::warning))
+      .def("debug", log(LogLevel::debug), Unlocked())
+      .def("info", log(LogLevel::info), Unlocked())
+      .def("warn", log(LogLevel::warning), Unlocked())
       .def("check_cancelled", [](const LentContext& c) { c.get().check_cancelled(); })
-      .def("expect",
-           [](const LentContext& c, std::size_t parts) {
-             const Context& context = c.get();
-             const py::gil_scoped_release unlocked;
-             context.expect(parts);
-           })
-      .def("advance",
-           [](const LentContext& c) {
-             const Context& context = c.get();
-             const py::gil_scoped_release unlocked;
-             context.advance();
-           })
+      .def(
+          "expect", [](const LentContext& c, std::size_t parts) { c.get().expect(parts); },
+          Unlocked())
+      .def(
+          "advance", [](const LentContext& c) { c.get().advance(); }, Unlocked())
       .def_property_readonly("threads", [](const LentContext& c) { return c.get().threads(); })
       .def_property_readonly("seed", [](const LentContext& c) { return c.get().seed(); })
       .def_property_readonly("scratch",
